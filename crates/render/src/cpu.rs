@@ -51,8 +51,8 @@ use crate::drawing::Drawing;
 use crate::picture::Picture;
 use crate::planes::{BandPlanes, SamplePlanes};
 use crate::samples::{SampleCountError, sample_positions};
-use bin::{Bins, Lists, cells};
-use context::{Part, TileContext};
+use bin::{Bins, cells};
+use context::{Part, TileContext, TileLists};
 use decals::{DecalParts, Decals};
 use instructions::Instructions;
 use light::Light;
@@ -376,7 +376,7 @@ enum Output<'a> {
 /// A thread's own memory.
 struct Worker {
     /// The segments that reach each of a band's tiles.
-    segments_of_tiles: Lists,
+    segments_of_tiles: TileLists,
     target: Target,
     parts: Vec<Part>,
     strand: StrandMasks,
@@ -396,7 +396,7 @@ struct Worker {
 impl Worker {
     fn new() -> Self {
         Self {
-            segments_of_tiles: Lists::default(),
+            segments_of_tiles: TileLists::default(),
             target: Target::new(),
             parts: Vec::new(),
             strand: StrandMasks::new(),
@@ -427,10 +427,8 @@ impl Worker {
     /// Finds the segments of each of the band's tiles.
     #[inline(always)]
     fn sort_into_tiles(&mut self, frame: &Frame, band: usize) {
-        let segments = &frame.parts.segments;
-        let columns = |i: u32| cells(segments.list()[i as usize].bounds.x(), tile::WIDTH);
         let tiles = (frame.drawing.size[0] as usize).div_ceil(tile::WIDTH);
-        let of_band = segments.of_band(band).map(|i| (i, columns(i)));
+        let of_band = frame.parts.segments.of_band(band);
         self.segments_of_tiles.fill(tiles, of_band);
         if !frame.parts.decals.is_empty() {
             self.sort_decals_into_tiles(frame, band);
@@ -444,7 +442,7 @@ impl Worker {
             let x = tile * tile::WIDTH;
             let end = (x + tile::WIDTH).min(width);
             let triangles = frame.parts.triangles_of_tiles.bin(band * tiles + tile);
-            if triangles.is_empty() && self.segments_of_tiles.bin(tile).is_empty() {
+            if triangles.is_empty() && self.segments_of_tiles.segments(tile).is_empty() {
                 frame.fill(pixels, x..end);
                 continue;
             }
@@ -502,7 +500,7 @@ impl Worker {
     fn find_strands(&mut self, frame: &Frame, scene: &TileContext, tile: usize) {
         frame.instructions.run(
             #[inline(always)]
-            || scene.strands(self.segments_of_tiles.bin(tile), &mut self.parts),
+            || scene.strands(&self.segments_of_tiles, tile, &mut self.parts),
         );
     }
 
@@ -594,7 +592,7 @@ impl Worker {
                 },
             );
         }
-        let segments_of_tile = self.segments_of_tiles.bin(tile);
+        let segments_of_tile = self.segments_of_tiles.segments(tile);
         instructions.run(
             #[inline(always)]
             || {

@@ -105,18 +105,18 @@ pub(super) fn clip([start, end]: [u16; 2], origin: usize, size: usize) -> Range<
 /// Items sorted into bins by counting. An item lies in each bin of a range; a bin keeps the order in
 /// which its items came.
 #[derive(Debug, Default)]
-pub(super) struct Bins {
+pub(super) struct Bins<T = u32> {
     /// `first[bin]..first[bin + 1]` are the bin's items.
     first: Vec<usize>,
-    items: Vec<u32>,
+    items: Vec<T>,
 }
 
-impl Bins {
+impl<T: Copy + Default> Bins<T> {
     /// Sorts items, each with its range of bins, into `bins` bins in place of what was there.
     pub(super) fn fill(
         &mut self,
         bins: usize,
-        items: impl Iterator<Item = (u32, Range<usize>)> + Clone,
+        items: impl Iterator<Item = (T, Range<usize>)> + Clone,
     ) {
         // Counted two places ahead: after the sums `first[bin + 1]` is where the bin starts, and the
         // second pass moves it to where it ends.
@@ -131,7 +131,7 @@ impl Bins {
             self.first[bin] += self.first[bin - 1];
         }
         self.items.clear();
-        self.items.resize(self.first[bins + 1], 0);
+        self.items.resize(self.first[bins + 1], T::default());
         let places = &mut self.first[1..];
         let sorted = &mut self.items[..];
         items.for_each(|(item, range)| {
@@ -143,7 +143,7 @@ impl Bins {
     }
 
     /// The items of a bin.
-    pub(super) fn bin(&self, bin: usize) -> &[u32] {
+    pub(super) fn bin(&self, bin: usize) -> &[T] {
         &self.items[self.first[bin]..self.first[bin + 1]]
     }
 }

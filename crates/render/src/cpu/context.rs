@@ -1,9 +1,9 @@
 //! What the strands of a tile are drawn with, and which come first.
 
-use super::bin::Bounds;
+use super::bin::{Bounds, cells};
 use super::instructions::Instructions;
-use super::segment::{Segment, Stroke};
-use super::tile::{OneByOne, ROWS, Stack, Target, greater};
+use super::segment::{Reach, Segment, Stroke};
+use super::tile::{OneByOne, ROWS, Stack, Target, WIDTH, greater};
 use crate::drawing::{Drawing, Order};
 use std::ops::Range;
 
@@ -33,40 +33,88 @@ pub(super) struct Part {
     columns: u32,
 }
 
+/// The segments that reach each of a band's tiles, strand by strand.
+#[derive(Default)]
+pub(super) struct TileLists(Vec<TileList>);
+
+/// Those of a tile.
+#[derive(Default)]
+struct TileList {
+    segments: Vec<u32>,
+    strands: Vec<StrandOfTile>,
+}
+
+/// All that reaches a tile of one strand.
+struct StrandOfTile {
+    /// The place of its first segment in the tile's list.
+    start: usize,
+    strand: u32,
+    bounds: Bounds,
+    inv_depth: f32,
+    biased: f32,
+}
+
+impl TileLists {
+    /// Sorts segments, which come strand by strand, into so many tiles in place of what was there.
+    #[inline(always)]
+    pub(super) fn fill(&mut self, tiles: usize, segments: impl Iterator<Item = Reach>) {
+        self.0.resize_with(tiles, TileList::default);
+        for tile in &mut self.0 {
+            tile.segments.clear();
+            tile.strands.clear();
+        }
+        segments.for_each(|segment| {
+            let tiles = cells(segment.bounds.x(), WIDTH);
+            self.0[tiles]
+                .iter_mut()
+                .for_each(|tile| tile.push(&segment));
+        });
+    }
+
+    /// The segments of a tile.
+    pub(super) fn segments(&self, tile: usize) -> &[u32] {
+        &self.0[tile].segments
+    }
+}
+
+impl TileList {
+    #[inline(always)]
+    fn push(&mut self, segment: &Reach) {
+        let start = self.segments.len();
+        self.segments.push(segment.segment);
+        match self.strands.last_mut() {
+            Some(last) if last.strand == segment.strand => {
+                last.bounds = last.bounds.around(&segment.bounds);
+                last.inv_depth = greater(segment.inv_depth, last.inv_depth);
+                last.biased = greater(segment.biased, last.biased);
+            }
+            _ => self.strands.push(StrandOfTile {
+                start,
+                strand: segment.strand,
+                bounds: segment.bounds,
+                inv_depth: segment.inv_depth,
+                biased: segment.biased,
+            }),
+        }
+    }
+}
+
 impl TileContext<'_> {
     /// Replaces `parts` by the strands of a tile, in the order in which they are best drawn.
     #[inline(always)]
-    pub(super) fn strands(&self, tile: &[u32], parts: &mut Vec<Part>) {
+    pub(super) fn strands(&self, lists: &TileLists, tile: usize, parts: &mut Vec<Part>) {
         parts.clear();
-        let mut rest = tile.iter().zip(0..);
-        let Some((&first, _)) = rest.next() else {
-            return;
-        };
-        let mut start = 0;
-        let first = &self.segments[first as usize];
-        let (mut strand, mut bounds) = (first.strand, first.bounds);
-        let (mut inv_depth, mut biased) = (first.inv_depth, first.biased);
-        let part = |segments: Range<usize>, inv_depth, biased, bounds: &Bounds| Part {
-            segments,
-            inv_depth,
-            biased,
-            rows: bounds.rows_in(self.origin[1], self.stack),
-            columns: bounds.columns_in(self.origin[0]),
-        };
-        for (&index, place) in rest {
-            let segment = &self.segments[index as usize];
-            if segment.strand != strand {
-                parts.push(part(start..place, inv_depth, biased, &bounds));
-                start = place;
-                (strand, bounds) = (segment.strand, segment.bounds);
-                (inv_depth, biased) = (segment.inv_depth, segment.biased);
-                continue;
-            }
-            bounds = bounds.around(&segment.bounds);
-            inv_depth = greater(segment.inv_depth, inv_depth);
-            biased = greater(segment.biased, biased);
+        let TileList { segments, strands } = &lists.0[tile];
+        for (i, strand) in strands.iter().enumerate() {
+            let end = strands.get(i + 1).map_or(segments.len(), |next| next.start);
+            parts.push(Part {
+                segments: strand.start..end,
+                inv_depth: strand.inv_depth,
+                biased: strand.biased,
+                rows: strand.bounds.rows_in(self.origin[1], self.stack),
+                columns: strand.bounds.columns_in(self.origin[0]),
+            });
         }
-        parts.push(part(start..tile.len(), inv_depth, biased, &bounds));
         // What lies behind the nearer ones is then seen to be hidden. Shifted strokes of equal depth
         // need their strands' order.
         if self.drawing.order != Order::Shifted {

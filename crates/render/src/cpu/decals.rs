@@ -118,9 +118,9 @@ impl Worker {
     #[inline(always)]
     pub(super) fn sort_decals_into_tiles(&mut self, frame: &Frame, band: usize) {
         let segments = &frame.parts.decals.segments;
-        let columns = |i: u32| cells_across(segments.list()[i as usize].bounds.x(), WIDTH);
         let tiles = (frame.drawing.size[0] as usize).div_ceil(WIDTH);
-        let of_band = segments.of_band(band).map(|i| (i, columns(i)));
+        let of_band = segments.of_band(band);
+        let of_band = of_band.map(|it| (it.segment, cells_across(it.bounds.x(), WIDTH)));
         self.decals.of_tiles.fill(tiles, of_band);
     }
 

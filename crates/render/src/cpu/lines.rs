@@ -161,7 +161,7 @@ impl Worker {
             let left = tile * tile::WIDTH;
             let columns = left..(left + tile::WIDTH).min(width);
             let triangles = frame.parts.triangles_of_tiles.bin(band * tiles + tile);
-            if triangles.is_empty() && self.segments_of_tiles.bin(tile).is_empty() {
+            if triangles.is_empty() && self.segments_of_tiles.segments(tile).is_empty() {
                 frame.fill(output.pixels, columns);
                 continue;
             }

@@ -160,7 +160,7 @@ impl Worker {
         for tile in 0..tiles {
             let left = tile * tile::WIDTH;
             let triangles = frame.parts.triangles_of_tiles.bin(band * tiles + tile);
-            let segments = self.segments_of_tiles.bin(tile);
+            let segments = self.segments_of_tiles.segments(tile);
             let size = [(width - left).min(tile::WIDTH), height - top];
             if triangles.is_empty() && segments.is_empty() {
                 nothing.end = left + size[0];

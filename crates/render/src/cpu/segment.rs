@@ -74,6 +74,18 @@ pub(super) struct Segment {
     pub(super) biased: f32,
 }
 
+/// What tiles ask of a segment before it may be seen, in a list of its own: to look into [`Segment`]s, which lie elsewhere for each band, takes longer than
+/// all that is done with it.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Reach {
+    /// Its number.
+    pub(super) segment: u32,
+    pub(super) strand: u32,
+    pub(super) bounds: Bounds,
+    pub(super) inv_depth: f32,
+    pub(super) biased: f32,
+}
+
 /// What a segment is on the screen; u as in [`Sweep`], from the larger disc to the smaller.
 #[derive(Clone, Debug)]
 pub(super) struct Shape {
@@ -134,8 +146,8 @@ struct Group {
     /// Its places in the list: enough for all that it may have. Behind the segments that may be seen come some that
     /// lie in no bounds.
     places: Range<usize>,
-    /// The places of its segments, from the group's first, by the bands of the picture that they reach.
-    bands: Bins,
+    /// Its segments by the bands of the picture that they reach, numbered from the group's first.
+    bands: Bins<Reach>,
 }
 
 impl Segments {
@@ -193,13 +205,15 @@ impl Segments {
             for segment in &mut list[number..] {
                 segment.bounds = Bounds::default();
             }
-            let rows = list[..number]
-                .iter()
-                .map(|segment| segment.bounds.y())
-                .zip(0..);
-            group
-                .bands
-                .fill(bands, rows.map(|(rows, i)| (i, cells(rows, tile_height))));
+            let reaches = list[..number].iter().zip(0..).map(|(segment, i)| Reach {
+                segment: i,
+                strand: segment.strand,
+                bounds: segment.bounds,
+                inv_depth: segment.inv_depth,
+                biased: segment.biased,
+            });
+            let of_bands = reaches.map(|it| (it, cells(it.bounds.y(), tile_height)));
+            group.bands.fill(bands, of_bands);
         });
     }
 
@@ -208,12 +222,15 @@ impl Segments {
         &self.list
     }
 
-    /// The numbers of those that reach a band, in order.
-    pub(super) fn of_band(&self, band: usize) -> impl Iterator<Item = u32> + Clone {
+    /// Those that reach a band, in order.
+    pub(super) fn of_band(&self, band: usize) -> impl Iterator<Item = Reach> {
         let groups = self.groups.iter();
         groups.flat_map(move |group| {
             let first = group.places.start as u32;
-            group.bands.bin(band).iter().map(move |i| first + i)
+            group.bands.bin(band).iter().map(move |reach| Reach {
+                segment: first + reach.segment,
+                ..*reach
+            })
         })
     }
 }
