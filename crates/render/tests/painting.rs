@@ -246,35 +246,61 @@ fn lines(width_px: f32, color: [f32; 3]) -> Edges {
 #[test]
 fn lines_are_the_same_whether_or_not_a_pass_asks_for_colours() {
     let thick = lines(9.5, [0.0, 0.5, 1.0]);
-    let thin = lines(1.5, [1.0, 0.25, 0.0]);
+    let of = |channel, width_px, color| Edges {
+        channel,
+        threshold: 0.7,
+        ..lines(width_px, color)
+    };
+    let along = Edges {
+        width_px: effects::Variation {
+            curve: vec![(0.0, 4.0), (1.0, 1.0)],
+            vary: 0.5,
+        },
+        fade_to: 0.0,
+        ..of(EdgeChannel::Level, 1.0, [0.3, 0.6, 0.9])
+    };
+    let shapes = of(EdgeChannel::Object, 3.0, [1.0, 0.0, 0.0]);
+    let folds = of(EdgeChannel::Normal, 1.0, [0.0, 1.0, 0.0]);
+    let steps = of(EdgeChannel::Depth, 2.0, [0.0, 0.0, 1.0]);
     // Lines of colours, of which there are none: for them all samples tell their colours.
     let none = Edges {
         channel: EdgeChannel::Color,
         threshold: 1e9,
-        ..thin.clone()
+        ..thick.clone()
     };
-    let features = thick.features().union(none.features());
-    for background in [None, Some([0.5, 0.25, 2.0])] {
-        let list = format!("[{LINE}, {}]", toon(""));
-        let (mut drawing, mut other) = (drawing(&list, features), drawing_of(3, &list, features));
-        drawing.background = background;
-        other.background = background;
-        let plain = draw(&drawing, 4, 1);
-        for samples in [1, 2, 3, 4, 5] {
-            drawing.passes = vec![thick.clone(), thin.clone(), none.clone()];
-            let expected = draw(&drawing, samples, 1);
-            assert_ne!(expected, plain);
-            drawing.passes.pop();
-            let mut rasterizer = Rasterizer::new(samples, Some(2)).unwrap();
-            let found = rasterizer.draw(&drawing).unwrap();
-            assert_eq!(found, expected, "{samples} samples on {background:?}");
-            // In the memory of a picture of less.
-            other.passes = drawing.passes.clone();
-            rasterizer.give_back(found);
-            let found = rasterizer.draw(&other).unwrap();
-            rasterizer.give_back(found);
-            let found = rasterizer.draw(&drawing).unwrap();
-            assert_eq!(found, expected, "{samples} samples on {background:?}");
+    let list = format!("[{LINE}, {}]", toon(""));
+    for passes in [
+        vec![thick, lines(1.5, [1.0, 0.25, 0.0])],
+        vec![along],
+        vec![shapes],
+        vec![folds, steps.clone()],
+        vec![steps],
+    ] {
+        let features = passes.iter().chain([&none]).map(Edges::features);
+        let features = features.fold(Features::NONE, Features::union);
+        for background in [None, Some([0.5, 0.25, 2.0])] {
+            let (mut drawing, mut other) =
+                (drawing(&list, features), drawing_of(3, &list, features));
+            drawing.background = background;
+            other.background = background;
+            let plain = draw(&drawing, 4, 1);
+            for samples in [1, 2, 3, 4, 5] {
+                drawing.passes = [&passes[..], std::slice::from_ref(&none)].concat();
+                let expected = draw(&drawing, samples, 1);
+                assert_ne!(expected, plain);
+                drawing.passes = passes.clone();
+                let mut rasterizer = Rasterizer::new(samples, Some(2)).unwrap();
+                let found = rasterizer.draw(&drawing).unwrap();
+                let what = format!("{samples} samples on {background:?}: {passes:?}");
+                assert!(found == expected, "{what}");
+                // In the memory of a picture of less.
+                other.passes = passes.clone();
+                rasterizer.give_back(found);
+                let found = rasterizer.draw(&other).unwrap();
+                rasterizer.give_back(found);
+                let found = rasterizer.draw(&drawing).unwrap();
+                assert!(found == expected, "{what}");
+            }
         }
     }
 }

@@ -189,3 +189,114 @@ pub(crate) fn marked(marks: &[u32]) -> impl Iterator<Item = usize> {
         places.filter_map(|(place, mark)| (*mark != 0).then_some(place))
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Columns of a row of pixels.
+    const WIDTH: usize = 16;
+
+    /// Three rows of [`WIDTH`] pixels with a column more on either side, `step` numbers a pixel.
+    fn three(step: usize, value: impl Fn(usize, usize) -> u32) -> [Vec<u32>; 3] {
+        [0, 1, 2].map(|row| (0..(WIDTH + 2) * step).map(|i| value(row, i)).collect())
+    }
+
+    fn rows([above, own, below]: &[Vec<u32>; 3]) -> Rows<'_> {
+        Rows { above, own, below }
+    }
+
+    /// The marks of a rule that asks of a sample, by its place in a row, and one of the nine around it, by row and place.
+    fn of_pairs(step: usize, is_marked: impl Fn(usize, [usize; 2]) -> bool) -> Vec<u32> {
+        let marks = (step..(WIDTH + 1) * step).map(|own| {
+            let columns = [own - step, own, own + step];
+            let mut around = (0..3).flat_map(|row| columns.map(|at| [row, at]));
+            u32::from(around.any(|other| is_marked(own, other)))
+        });
+        marks.collect()
+    }
+
+    fn found(step: usize, mark: impl Fn(&mut [u32])) -> Vec<u32> {
+        let mut marks = vec![7; WIDTH * step];
+        mark(&mut marks);
+        let places: Vec<usize> = (0..marks.len()).filter(|i| marks[*i] != 0).collect();
+        assert_eq!(marked(&marks).collect::<Vec<_>>(), places);
+        marks
+    }
+
+    proptest! {
+        #[test]
+        fn ids_are_those_of_pairs(
+            numbers in prop::collection::vec(0..1000_u32, 61),
+            likely in 2..8_u32,
+        ) {
+            let some = |row: usize, i: usize, of: usize| numbers[(row * 7919 + i * 104_729 + of * 31) % 61];
+            let mut count = [0, 0];
+            for step in [1, 2, 4, 8] {
+                // Most neighbours are alike: they change every few columns.
+                let place = |i: usize| i / step / likely as usize;
+                let objects = three(step, |row, i| some(row / 2, place(i), 0) % 4);
+                let ids = three(step, |row, i| some(row / 2, place(i) + i % step, 1) % 3);
+                let depths = three(step, |row, i| (1.0 + (some(row, i, 2) % 3) as f32).to_bits());
+                let around = Around {
+                    objects: rows(&objects),
+                    ids: rows(&ids),
+                    inv_depths: rows(&depths),
+                    components: [Rows::NONE; 3],
+                };
+                for is_of_hair in [false, true] {
+                    let key = |row: usize, at: usize| (objects[row][at], ids[row][at]);
+                    let depth = |row: usize, at: usize| f32::from_bits(depths[row][at]);
+                    let expected = of_pairs(step, |own, [row, at]| {
+                        let (mine, other) = (key(1, own), key(row, at));
+                        let is_drawn = !is_of_hair || mine.0 % 2 == 1 || other.0 % 2 == 1;
+                        mine != other && is_drawn && (depth(1, own), mine) > (depth(row, at), other)
+                    });
+                    let marks = found(step, |marks| {
+                        let mut scratch = Scratch::default();
+                        match step {
+                            1 => super::ids::<1>(&around, is_of_hair, &mut scratch, marks),
+                            2 => super::ids::<2>(&around, is_of_hair, &mut scratch, marks),
+                            4 => super::ids::<4>(&around, is_of_hair, &mut scratch, marks),
+                            _ => super::ids::<8>(&around, is_of_hair, &mut scratch, marks),
+                        }
+                    });
+                    for mark in &expected {
+                        count[*mark as usize] += 1;
+                    }
+                    prop_assert_eq!(marks, expected);
+                }
+            }
+            prop_assume!(count.iter().all(|count| *count > 0));
+        }
+
+        #[test]
+        fn steps_are_those_of_pairs(numbers in prop::collection::vec(0..13_u32, 61)) {
+            let step_m = 0.1;
+            // 0 where nothing is.
+            let depths = |step: usize| three(step, |row, i| match numbers[(row * 7919 + i * 104_729) % 61] {
+                0 => 0,
+                n => (1.0 + 0.04 * n as f32).to_bits(),
+            });
+            let [one, four] = [1, 4].map(depths);
+            for (step, depths) in [(1, one), (4, four)] {
+                let expected = of_pairs(step, |own, [row, at]| {
+                    let (own, other) = (f32::from_bits(depths[1][own]), f32::from_bits(depths[row][at]));
+                    other * (1.0 + own * step_m) < own
+                });
+                let around = Around {
+                    objects: Rows::NONE,
+                    ids: Rows::NONE,
+                    inv_depths: rows(&depths),
+                    components: [Rows::NONE; 3],
+                };
+                let marks = found(step, |marks| match step {
+                    1 => steps::<1>(&around, step_m, &mut Scratch::default(), marks),
+                    _ => steps::<4>(&around, step_m, &mut Scratch::default(), marks),
+                });
+                prop_assert_eq!(marks, expected);
+            }
+        }
+    }
+}
