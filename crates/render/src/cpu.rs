@@ -428,8 +428,8 @@ impl Worker {
     #[inline(always)]
     fn sort_into_tiles(&mut self, frame: &Frame, band: usize) {
         let tiles = (frame.drawing.size[0] as usize).div_ceil(tile::WIDTH);
-        let of_band = frame.parts.segments.of_band(band);
-        self.segments_of_tiles.fill(tiles, of_band);
+        let segments = &frame.parts.segments;
+        self.segments_of_tiles.fill(tiles, segments, band);
         if !frame.parts.decals.is_empty() {
             self.sort_decals_into_tiles(frame, band);
         }

@@ -2,7 +2,7 @@
 
 use super::bin::{Bounds, cells};
 use super::instructions::Instructions;
-use super::segment::{Reach, Segment, Stroke};
+use super::segment::{Reach, Segment, Segments, Stroke};
 use super::tile::{OneByOne, ROWS, Stack, Target, WIDTH, greater};
 use crate::drawing::{Drawing, Order};
 use std::ops::Range;
@@ -55,20 +55,23 @@ struct StrandOfTile {
 }
 
 impl TileLists {
-    /// Sorts segments, which come strand by strand, into so many tiles in place of what was there.
+    /// Sorts the segments of a band into so many tiles in place of what was there.
+    ///
+    /// In loops, not by iterators, whose closures are not compiled for their caller's instructions.
     #[inline(always)]
-    pub(super) fn fill(&mut self, tiles: usize, segments: impl Iterator<Item = Reach>) {
+    pub(super) fn fill(&mut self, tiles: usize, segments: &Segments, band: usize) {
         self.0.resize_with(tiles, TileList::default);
         for tile in &mut self.0 {
             tile.segments.clear();
             tile.strands.clear();
         }
-        segments.for_each(|segment| {
-            let tiles = cells(segment.bounds.x(), WIDTH);
-            self.0[tiles]
-                .iter_mut()
-                .for_each(|tile| tile.push(&segment));
-        });
+        for (first, some) in segments.of_band(band) {
+            for reach in some {
+                for tile in &mut self.0[cells(reach.bounds.x(), WIDTH)] {
+                    tile.push(first + reach.segment, reach);
+                }
+            }
+        }
     }
 
     /// The segments of a tile.
@@ -79,9 +82,9 @@ impl TileLists {
 
 impl TileList {
     #[inline(always)]
-    fn push(&mut self, segment: &Reach) {
+    fn push(&mut self, number: u32, segment: &Reach) {
         let start = self.segments.len();
-        self.segments.push(segment.segment);
+        self.segments.push(number);
         match self.strands.last_mut() {
             Some(last) if last.strand == segment.strand => {
                 last.bounds = last.bounds.around(&segment.bounds);

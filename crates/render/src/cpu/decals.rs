@@ -4,7 +4,7 @@
 use super::bin::{Lists, cells as cells_across};
 use super::brush::StrokeBrush;
 use super::context::TileContext;
-use super::segment::{Kind, Segment, Segments, Stroke, strokes_in_order};
+use super::segment::{Kind, Reach, Segment, Segments, Stroke, strokes_in_order};
 use super::shown::{NOTHING as SHOWS_NOTHING, Shown, TRIANGLE};
 use super::stroke::{NEARER, Placed, across};
 use super::tile::{
@@ -119,8 +119,10 @@ impl Worker {
     pub(super) fn sort_decals_into_tiles(&mut self, frame: &Frame, band: usize) {
         let segments = &frame.parts.decals.segments;
         let tiles = (frame.drawing.size[0] as usize).div_ceil(WIDTH);
-        let of_band = segments.of_band(band);
-        let of_band = of_band.map(|it| (it.segment, cells_across(it.bounds.x(), WIDTH)));
+        let of_band = segments.of_band(band).flat_map(|(first, some)| {
+            let columns = |it: &Reach| cells_across(it.bounds.x(), WIDTH);
+            some.iter().map(move |it| (first + it.segment, columns(it)))
+        });
         self.decals.of_tiles.fill(tiles, of_band);
     }
 

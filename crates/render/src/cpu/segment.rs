@@ -78,7 +78,7 @@ pub(super) struct Segment {
 /// all that is done with it.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Reach {
-    /// Its number.
+    /// Its number, from that of some segment on.
     pub(super) segment: u32,
     pub(super) strand: u32,
     pub(super) bounds: Bounds,
@@ -222,16 +222,10 @@ impl Segments {
         &self.list
     }
 
-    /// Those that reach a band, in order.
-    pub(super) fn of_band(&self, band: usize) -> impl Iterator<Item = Reach> {
+    /// Those that reach a band, in order: some at a time, with what is to be added to their numbers.
+    pub(super) fn of_band(&self, band: usize) -> impl Iterator<Item = (u32, &[Reach])> {
         let groups = self.groups.iter();
-        groups.flat_map(move |group| {
-            let first = group.places.start as u32;
-            group.bands.bin(band).iter().map(move |reach| Reach {
-                segment: first + reach.segment,
-                ..*reach
-            })
-        })
+        groups.map(move |group| (group.places.start as u32, group.bands.bin(band)))
     }
 }
 
