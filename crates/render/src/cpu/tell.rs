@@ -201,6 +201,20 @@ fn row_of<T>(plane: &[[T; LANES]; ROWS * CELLS_ACROSS], row: usize) -> &Row<T> {
     samples.unwrap_or_else(|_| unreachable!("a row is {CELLS_ACROSS} cells"))
 }
 
+/// Things that samples show, one after the other, and whose they are.
+struct Owned {
+    first: u32,
+    count: u32,
+    owner: u32,
+}
+
+impl Owned {
+    #[inline(always)]
+    fn has(&self, what: u32) -> bool {
+        what.wrapping_sub(self.first) < self.count
+    }
+}
+
 /// What each of some numbers stands for; of the one number of `last` it is known.
 #[inline(always)]
 fn each_of(numbers: &Row<u32>, mut last: (u32, u32), of: impl Fn(u32) -> u32) -> Row<u32> {
@@ -243,18 +257,54 @@ impl Frame<'_> {
     /// Whose the samples are that show this: [`NOTHING`], a surface's number with [`TRIANGLE`], or that of a run.
     #[inline(always)]
     fn owners(&self, what: &Row<u32>) -> Row<u32> {
-        let owner = |what: u32| {
-            if what < TRIANGLE {
-                let segment = &self.parts.segments.list()[what as usize];
-                return self.runs_of_joints[segment.joints()[0]];
-            }
-            if what == NOTHING {
-                return NOTHING;
-            }
-            let triangle = &self.parts.triangles[(what & !TRIANGLE) as usize];
-            triangle.surface | TRIANGLE
+        let mut last = Owned {
+            first: NOTHING,
+            count: 1,
+            owner: NOTHING,
         };
-        each_of(what, (NOTHING, NOTHING), owner)
+        let mut owners = [0; ROW];
+        let (cells, _) = what.as_chunks::<LANES>();
+        let (of_cells, _) = owners.as_chunks_mut::<LANES>();
+        for (what, owners) in cells.iter().zip(of_cells) {
+            let mut are_others = false;
+            for k in 0..LANES {
+                are_others |= !last.has(what[k]);
+            }
+            if !are_others {
+                *owners = [last.owner; LANES];
+                continue;
+            }
+            for k in 0..LANES {
+                if !last.has(what[k]) {
+                    last = self.owned(what[k]);
+                }
+                owners[k] = last.owner;
+            }
+        }
+        owners
+    }
+
+    /// What is of the same owner as this.
+    fn owned(&self, what: u32) -> Owned {
+        let (first, count, owner) = match what {
+            NOTHING => (what, 1, NOTHING),
+            TRIANGLE.. => {
+                let triangle = &self.parts.triangles[(what & !TRIANGLE) as usize];
+                // A surface's triangles come one after the other.
+                let surface = &self.drawing.surfaces[triangle.surface as usize];
+                let count = surface.triangles.len() as u32;
+                (what - triangle.number, count, triangle.surface | TRIANGLE)
+            }
+            _ => {
+                let segment = &self.parts.segments.list()[what as usize];
+                (what, 1, self.runs_of_joints[segment.joints()[0]])
+            }
+        };
+        Owned {
+            first,
+            count,
+            owner,
+        }
     }
 
     /// An id of each of the samples that show this, and are of these owners.
