@@ -183,9 +183,9 @@ impl Edges {
         }
     }
 
-    /// Marks where lines begin in a row of samples, of which `STEP` lie between one and its neighbour.
+    /// Marks where lines begin in a row of samples, of which `STEP` lie between one and its neighbour; `SAME` as of [`find::ids`].
     #[inline(always)] // compiled for the best instructions
-    pub(crate) fn mark<const STEP: usize>(
+    pub(crate) fn mark<const STEP: usize, const SAME: bool>(
         &self,
         around: &Around,
         scratch: &mut Scratch,
@@ -193,9 +193,9 @@ impl Edges {
     ) {
         match self.channel {
             EdgeChannel::Level | EdgeChannel::Strand => {
-                find::ids::<STEP>(around, true, scratch, marks);
+                find::ids::<STEP, SAME>(around, true, scratch, marks);
             }
-            EdgeChannel::Object => find::ids::<STEP>(around, false, scratch, marks),
+            EdgeChannel::Object => find::ids::<STEP, SAME>(around, false, scratch, marks),
             EdgeChannel::Depth => find::steps::<STEP>(around, self.step_m, scratch, marks),
             EdgeChannel::Normal | EdgeChannel::Color => {
                 find::sobel::<STEP>(around, self.threshold * self.threshold, marks);
@@ -239,7 +239,7 @@ impl Edges {
             let around = wide.around(self, planes, picture, y);
             instructions.run(
                 #[inline(always)]
-                || self.mark::<1>(&around, &mut scratch, &mut marks),
+                || self.mark::<1, false>(&around, &mut scratch, &mut marks),
             );
             let objects = planes.ids(picture, Feature::Object, y);
             // Empty where no width needs them.

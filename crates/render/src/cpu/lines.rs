@@ -16,6 +16,7 @@ use std::sync::Mutex;
 
 /// What a band is drawn into that lines are drawn over.
 pub(super) struct BandUnderLines<'a> {
+    search: &'a Search<'a>,
     pixels: &'a mut [[f32; 4]],
     tiles: &'a mut [TileLight],
     /// Its outermost rows.
@@ -75,6 +76,10 @@ impl Frame<'_> {
             samples: self.samples,
             height: self.drawing.size[1] as usize,
             band: tile::height(self.stacks),
+            has_one_hair: {
+                let runs = &self.drawing.features.runs;
+                runs.iter().all(|run| run.object == runs[0].object)
+            },
         }
     }
 
@@ -101,6 +106,7 @@ impl Frame<'_> {
         let within = all.map(|(band, ((pixels, tiles), rims))| {
             let mut found = nothing();
             let output = BandUnderLines {
+                search: &search,
                 pixels,
                 tiles,
                 rims,
@@ -183,8 +189,7 @@ impl Worker {
         frame.instructions.run(
             #[inline(always)]
             || {
-                let search = frame.search();
-                self.finder.find_in(&search, &ribbon, band, output.found);
+                (self.finder).find_in(output.search, &ribbon, band, output.found);
             },
         );
         ribbon.copy_rims(output.rims);

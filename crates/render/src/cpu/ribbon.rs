@@ -257,6 +257,8 @@ pub(super) struct Search<'a> {
     pub(super) height: usize,
     /// Rows of pixels of a band.
     pub(super) band: usize,
+    /// Whether all hair is one object's: else two may have strands and levels of one number.
+    pub(super) has_one_hair: bool,
 }
 
 impl Finder {
@@ -379,7 +381,10 @@ impl Finder {
                 inv_depths,
                 components: [0, 1, 2].map(|i| filtered.map_or(Rows::NONE, |it| rows(it, i))),
             };
-            pass.mark::<OF_PIXEL>(&around, scratch, marks);
+            match search.has_one_hair {
+                true => pass.mark::<OF_PIXEL, true>(&around, scratch, marks),
+                false => pass.mark::<OF_PIXEL, false>(&around, scratch, marks),
+            }
             for mark in marked(marks) {
                 let (column, sample) = (columns.start + mark / OF_PIXEL, mark % OF_PIXEL);
                 if column >= columns.end || sample >= search.stack.samples {

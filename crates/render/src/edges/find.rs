@@ -77,8 +77,10 @@ fn numbers(bits: [u32; SOME]) -> [f32; SOME] {
 
 /// Marks samples beside others of another id that aren't in front of them. What is equally near belongs to the greater object, then the greater id. Where
 /// `is_of_hair`, only what has hair on one side counts.
+///
+/// `SAME` where ids that are the same are so of the same object, but for what is drawn nowhere: objects aren't looked at then before ids differ.
 #[inline(always)] // compiled for the best instructions, as all here
-pub(crate) fn ids<const STEP: usize>(
+pub(crate) fn ids<const STEP: usize, const SAME: bool>(
     around: &Around,
     is_of_hair: bool,
     scratch: &mut Scratch,
@@ -92,21 +94,25 @@ pub(crate) fn ids<const STEP: usize>(
     scratch.differ.resize(length, 0);
     let differ = &mut scratch.differ[..length];
     for i in 0..length {
-        let by_object = (objects[0][i] ^ objects[1][i]) | (objects[2][i] ^ objects[1][i]);
-        let by_id = (ids[0][i] ^ ids[1][i]) | (ids[2][i] ^ ids[1][i]);
-        differ[i] = by_object | by_id;
+        differ[i] = (ids[0][i] ^ ids[1][i]) | (ids[2][i] ^ ids[1][i]);
+        if !SAME {
+            differ[i] |= (objects[0][i] ^ objects[1][i]) | (objects[2][i] ^ objects[1][i]);
+        }
     }
     let is_hair = u32::from(!is_of_hair); // as all then counts as hair, whose objects are odd
     let (marks, _) = marks.as_chunks_mut::<SOME>();
     for (number, marks) in marks.iter_mut().enumerate() {
         let start = number * SOME;
-        let (object, id) = (some(objects[1], start + STEP), some(ids[1], start + STEP));
+        let id = some(ids[1], start + STEP);
+        let object = some(objects[1], start + STEP);
         let mut any = 0;
         for k in 0..SOME {
             let [left, right] = [start + k, start + k + 2 * STEP];
             any |= differ[left] | differ[left + STEP] | differ[right];
-            any |= (objects[1][left] ^ object[k]) | (objects[1][right] ^ object[k]);
             any |= (ids[1][left] ^ id[k]) | (ids[1][right] ^ id[k]);
+            if !SAME {
+                any |= (objects[1][left] ^ object[k]) | (objects[1][right] ^ object[k]);
+            }
         }
         *marks = [0; SOME];
         if any == 0 {
@@ -256,10 +262,10 @@ mod tests {
                     let marks = found(step, |marks| {
                         let mut scratch = Scratch::default();
                         match step {
-                            1 => super::ids::<1>(&around, is_of_hair, &mut scratch, marks),
-                            2 => super::ids::<2>(&around, is_of_hair, &mut scratch, marks),
-                            4 => super::ids::<4>(&around, is_of_hair, &mut scratch, marks),
-                            _ => super::ids::<8>(&around, is_of_hair, &mut scratch, marks),
+                            1 => super::ids::<1, false>(&around, is_of_hair, &mut scratch, marks),
+                            2 => super::ids::<2, false>(&around, is_of_hair, &mut scratch, marks),
+                            4 => super::ids::<4, false>(&around, is_of_hair, &mut scratch, marks),
+                            _ => super::ids::<8, false>(&around, is_of_hair, &mut scratch, marks),
                         }
                     });
                     for mark in &expected {
