@@ -148,7 +148,7 @@ impl Worker {
                     for k in 0..LANES {
                         is_mesh[k] &= !replaced[k];
                     }
-                    shaded = Some(in_shadow);
+                    shaded = any(&in_shadow).then_some(in_shadow);
                 }
                 gathered.add_cell(cell, (shows, &is_mesh), shaded.as_ref(), None, target);
             }
@@ -319,10 +319,14 @@ impl Block {
         let cell = Cell::of_index(index);
         let left = (place.origin[0] + cell.column) as f32;
         let top = (place.origin[1] + cell.row * place.stack.height) as f32;
+        let (mut x, mut y) = (place.stack.x, place.stack.y);
         for k in 0..LANES {
-            self.x[slot][k] = left + place.stack.x[k];
-            self.y[slot][k] = top + place.stack.y[k];
+            x[k] += left;
         }
+        for k in 0..LANES {
+            y[k] += top;
+        }
+        (self.x[slot], self.y[slot]) = (x, y);
         // Of samples that show no surface there is none.
         self.inv_depth[slot] = target.surface[index];
     }
@@ -361,26 +365,41 @@ impl Block {
         }
         put(&mut self.samples.occlusion, slot, &occlusion, lanes);
         // Most cells show one surface: its colours go to all samples, as nobody asks for those of others.
-        if self.colored_as == corners.surface {
-            return;
-        }
-        let is_first = self.colored_as == NOTHING;
-        let lanes = if is_first { &[u32::MAX; LANES] } else { lanes };
-        if is_first {
+        if self.colored_as == NOTHING {
             self.colored_as = corners.surface;
+            self.tell_colors::<true>(slot, corners, colors, index, lanes);
+        } else if self.colored_as != corners.surface {
+            self.tell_colors::<false>(slot, corners, colors, index, lanes);
         }
+    }
+
+    /// Tells the samples of a cell, or `ALL` of a slot, a surface's own colours.
+    #[inline(always)]
+    fn tell_colors<const ALL: bool>(
+        &mut self,
+        slot: usize,
+        corners: &Corners,
+        colors: &[Plane; 3],
+        index: usize,
+        lanes: &LaneMask,
+    ) {
         let (own, shade) = (&mut self.samples.color, &mut self.samples.shade_color);
-        let own = [&mut own.x, &mut own.y, &mut own.z];
-        let shade = [&mut shade.x, &mut shade.y, &mut shade.z];
-        for (axis, (own, shade)) in own.into_iter().zip(shade).enumerate() {
-            let texel = colors[axis][index];
-            let (mut light, mut shadow) = (texel, texel);
-            for k in 0..LANES {
-                light[k] *= corners.light[axis];
-                shadow[k] *= corners.shadow[axis];
+        for (numbers, factors) in [
+            ([&mut own.x, &mut own.y, &mut own.z], &corners.light),
+            ([&mut shade.x, &mut shade.y, &mut shade.z], &corners.shadow),
+        ] {
+            for axis in 0..3 {
+                let mut color = colors[axis][index];
+                for k in 0..LANES {
+                    color[k] *= factors[axis];
+                }
+                let numbers = &mut *numbers[axis];
+                if ALL {
+                    numbers[slot * LANES..][..LANES].copy_from_slice(&color);
+                } else {
+                    put(numbers, slot, &color, lanes);
+                }
             }
-            put(own, slot, &light, lanes);
-            put(shade, slot, &shadow, lanes);
         }
     }
 
