@@ -55,28 +55,26 @@ pub(super) fn draw_all<'a>(
     let mut set_up = SetUp::NOTHING;
     let mut left = of_tile;
     while let Some(&first) = left.first() {
-        let surface = all[first as usize].surface;
         // They come surface by surface.
-        let length = left.partition_point(|number| all[*number as usize].surface == surface);
-        let (own, others) = left.split_at(length);
-        left = others;
-        let surface = &drawing.surfaces[surface as usize];
+        let number = all[first as usize].surface;
+        let surface = (number, &drawing.surfaces[number as usize]);
         let to = (&mut *target, &mut *pictures);
-        match &surface.texture {
+        match &surface.1.texture {
             Some(texture) if texture.coverage != Coverage::Ignored => {
-                draw_some::<true>(all, own, surface, tile, &mut set_up, to, &mut shows);
+                draw_some::<true>(all, &mut left, surface, tile, &mut set_up, to, &mut shows);
             }
-            _ => draw_some::<false>(all, own, surface, tile, &mut set_up, to, &mut shows),
+            _ => draw_some::<false>(all, &mut left, surface, tile, &mut set_up, to, &mut shows),
         }
     }
 }
 
-/// Draws triangles of one surface, some at a time. Twice, for pictures that leave samples free and for all else, so that this doesn't pay for them.
+/// Draws the first triangles of those that are left, which are of one surface, some at a time, and takes them away. Twice, for pictures that leave samples
+/// free and for all else, so that this doesn't pay for them.
 #[inline(always)]
 fn draw_some<'a, const CUT: bool>(
     all: &[Triangle],
-    some: &[u32],
-    surface: &'a Surface,
+    left: &mut &[u32],
+    (of_surface, surface): (u32, &'a Surface),
     tile: &Tile,
     set_up: &mut SetUp,
     (target, pictures): (&mut Target, &mut Pictures<'a, '_>),
@@ -90,13 +88,16 @@ fn draw_some<'a, const CUT: bool>(
         shadow,
         is_flat: light == shadow,
     };
-    let mut left = some.iter();
     loop {
         set_up.clear();
         while !set_up.is_full()
-            && let Some(&number) = left.next()
+            && let Some((&number, others)) = left.split_first()
         {
             let triangle = &all[number as usize];
+            if triangle.surface != of_surface {
+                break;
+            }
+            *left = others;
             if triangle.nearest > farthest && !triangle.is_hidden(tile, target) {
                 set_up.push(number, triangle, surface);
             }

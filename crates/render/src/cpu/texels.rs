@@ -161,37 +161,31 @@ impl<'a, 'b> Pictures<'a, 'b> {
                 continue;
             }
             let cell = Cell::of_index(index);
-            // What shows no picture is multiplied by 1, which changes no bit.
-            let mut texels = [[1.0; LANES]; 3];
             for lane in 0..LANES {
                 let number = left[lane];
                 if number == 0 {
                     continue;
                 }
-                let texel = self.texels[number as usize - 1].at(cell, stack, lane);
-                // Those that look it up together are neighbours.
-                let first = lane / TOGETHER * TOGETHER;
-                for k in first..first + TOGETHER {
-                    let own = (left[k] == number) & (pixels[lane][k] != 0);
-                    left[k] = select(own, 0, left[k]);
-                    for channel in 0..3 {
-                        let color = &mut texels[channel][k];
-                        *color = select(own, texel[channel], *color);
-                    }
-                }
-            }
-            for (plane, texels) in target.color.iter_mut().zip(&texels) {
-                let color = &mut plane[index];
+                let mut own = pixels[lane];
                 for k in 0..LANES {
-                    color[k] *= texels[k];
+                    own[k] &= select(left[k] == number, u32::MAX, 0);
+                }
+                for k in 0..LANES {
+                    left[k] &= !own[k];
+                }
+                let texel = self.texels[number as usize - 1].at(cell, stack, lane);
+                for (channel, plane) in target.color.iter_mut().enumerate() {
+                    let mut color = plane[index];
+                    for k in 0..LANES {
+                        let shown = color[k] * texel[channel];
+                        color[k] = select(own[k] != 0, shown, color[k]);
+                    }
+                    plane[index] = color;
                 }
             }
         }
     }
 }
-
-/// Samples that look pictures up together at most.
-const TOGETHER: usize = 4;
 
 /// For each lane those that look pictures up together with it, a power of 2.
 #[inline(always)]
