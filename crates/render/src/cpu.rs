@@ -31,6 +31,7 @@ mod seen;
 mod segment;
 mod set_up;
 mod shown;
+mod square;
 mod stamp;
 mod strand;
 mod stroke;
@@ -114,8 +115,6 @@ pub struct Rasterizer {
 struct Parts {
     segments: Segments,
     triangles: Vec<Triangle>,
-    /// Each triangle with the tiles that it reaches in one row of them.
-    rows_of_triangles: Vec<(u32, Range<usize>)>,
     triangles_of_tiles: Bins,
     /// What painted samples are mixed of; empty where nothing is painted.
     joint_rows: JointRows,
@@ -285,7 +284,6 @@ impl Parts {
         let Self {
             segments,
             triangles,
-            rows_of_triangles,
             triangles_of_tiles,
             joint_rows,
             painted,
@@ -305,19 +303,14 @@ impl Parts {
                 joint_rows.fill(&drawing.painting, drawing.clump.len());
             },
             || {
-                surface::collect(drawing, stacks, triangles);
+                surface::collect(drawing, stacks, Instructions::best(), triangles);
                 let [width, height] = drawing.size.map(|side| side as usize);
                 let (across, bands) = (width.div_ceil(tile::WIDTH), height.div_ceil(tile_height));
-                rows_of_triangles.clear();
-                for (triangle, i) in triangles.iter().zip(0..) {
+                let reached = triangles.iter().map(|triangle| {
                     let columns = cells(triangle.bounds.x(), tile::WIDTH);
-                    for band in cells(triangle.bounds.y(), tile_height) {
-                        let first = band * across;
-                        let tiles = first + columns.start..first + columns.end;
-                        rows_of_triangles.push((i, tiles));
-                    }
-                }
-                triangles_of_tiles.fill(across * bands, rows_of_triangles.iter().cloned());
+                    [columns, cells(triangle.bounds.y(), tile_height)]
+                });
+                triangles_of_tiles.fill_rows([across, bands], reached);
             },
         );
     }

@@ -19,13 +19,16 @@ pub(super) struct Bounds {
 
 impl Default for Bounds {
     fn default() -> Self {
-        Self::new([0, 0], [0, 0])
+        Self::NOWHERE
     }
 }
 
 impl Bounds {
+    /// No pixels.
+    pub(super) const NOWHERE: Self = Self::new([0, 0], [0, 0]);
+
     #[inline(always)]
-    fn new([left, right]: [u16; 2], [top, bottom]: [u16; 2]) -> Self {
+    const fn new([left, right]: [u16; 2], [top, bottom]: [u16; 2]) -> Self {
         Self {
             ends: [!left, !top, right, bottom],
         }
@@ -44,13 +47,19 @@ impl Bounds {
     }
 
     /// The pixels of a picture of the given size that the box from `min` to `max` touches, if any.
-    #[inline]
+    #[inline(always)] // into kernels that are compiled for several instruction sets
     pub(super) fn of_box(min: Vec2, max: Vec2, size: [u32; 2]) -> Option<Self> {
+        Self::of_ends(Vec4::new(min.x, min.y, -max.x, -max.y), size)
+    }
+
+    /// The same by a box's ends to the left and above, and those to the right and below with the other sign: the least ones of what is in it.
+    #[inline(always)] // into kernels that are compiled for several instruction sets
+    pub(super) fn of_ends(ends: Vec4, size: [u32; 2]) -> Option<Self> {
         let [width, height] = size.map(|side| side as f32);
         // All four ends at once, outwards: from the greater ones with the other sign. Single precision is finer than the margin wherever a
         // picture is.
         const SIGNS: Vec4 = Vec4::new(1.0, 1.0, -1.0, -1.0);
-        let ends = (Vec4::new(min.x, min.y, -max.x, -max.y) - MARGIN - 0.5) * SIGNS;
+        let ends = (ends - MARGIN - 0.5) * SIGNS;
         let ends = ends.max(Vec4::ZERO);
         let ends = ends.min(Vec4::new(width, height, width, height));
         let [left, top, right, bottom] = ends.to_array().map(|end| nearest(end) as u16);
@@ -127,11 +136,7 @@ impl<T: Copy + Default> Bins<T> {
         (items.clone()).for_each(|(_, range)| {
             ahead[range].iter_mut().for_each(|count| *count += 1);
         });
-        for bin in 2..bins + 2 {
-            self.first[bin] += self.first[bin - 1];
-        }
-        self.items.clear();
-        self.items.resize(self.first[bins + 1], T::default());
+        self.sum_up();
         let places = &mut self.first[1..];
         let sorted = &mut self.items[..];
         items.for_each(|(item, range)| {
@@ -142,9 +147,57 @@ impl<T: Copy + Default> Bins<T> {
         });
     }
 
+    /// Makes sums of the counts, and room for the items.
+    fn sum_up(&mut self) {
+        let mut sum = 0;
+        for first in &mut self.first[2..] {
+            sum += *first;
+            *first = sum;
+        }
+        self.items.clear();
+        self.items.resize(sum, T::default());
+    }
+
     /// The items of a bin.
     pub(super) fn bin(&self, bin: usize) -> &[T] {
         &self.items[self.first[bin]..self.first[bin + 1]]
+    }
+}
+
+impl Bins {
+    /// [`Self::fill`] of bins in rows of so many: the items' columns and rows of bins in place of their ranges.
+    pub(super) fn fill_rows(
+        &mut self,
+        [across, rows]: [usize; 2],
+        items: impl Iterator<Item = [Range<usize>; 2]> + Clone,
+    ) {
+        self.first.clear();
+        self.first.resize(across * rows + 2, 0);
+        let ahead = &mut self.first[2..];
+        items.clone().for_each(|[columns, rows]| {
+            let mut first = rows.start * across;
+            for _ in rows {
+                for bin in first + columns.start..first + columns.end {
+                    ahead[bin] += 1;
+                }
+                first += across;
+            }
+        });
+        self.sum_up();
+        let places = &mut self.first[1..];
+        let sorted = &mut self.items[..];
+        let mut item = 0;
+        items.for_each(|[columns, rows]| {
+            let mut first = rows.start * across;
+            for _ in rows {
+                for bin in first + columns.start..first + columns.end {
+                    sorted[places[bin]] = item;
+                    places[bin] += 1;
+                }
+                first += across;
+            }
+            item += 1;
+        });
     }
 }
 
@@ -184,6 +237,13 @@ mod tests {
                 assert_eq!(bins.bin(bin), *expected);
                 assert_eq!(lists.bin(bin), *expected);
             }
+        }
+        // Three columns and two rows.
+        let items = [[0..2, 0..1], [1..3, 0..2], [0..0, 0..2], [2..3, 1..2]];
+        bins.fill_rows([3, 2], items.into_iter());
+        let expected = [&[0][..], &[0, 1], &[1], &[], &[1], &[1, 3]];
+        for (bin, expected) in expected.iter().enumerate() {
+            assert_eq!(bins.bin(bin), *expected);
         }
         bins.fill(1, std::iter::empty());
         lists.fill(1, std::iter::empty());

@@ -4,8 +4,8 @@ use super::decals;
 use super::shown::{NOTHING, Shown, TRIANGLE};
 use super::surface::Interpolated;
 use super::tile::{
-    Cell, IdPlane, LANES, LaneMask, Lanes, Plane, Stack, Target, bits, id_plane, overwrite, plane,
-    select,
+    Cell, IdPlane, LANES, LaneMask, Lanes, Plane, Stack, Target, any, bits, id_plane, overwrite,
+    plane, select,
 };
 use super::{Frame, Worker};
 use crate::frame::{FAR_LIGHT, Light};
@@ -38,6 +38,8 @@ struct Under {
 struct Block {
     /// The cells that they are of, and which samples of these.
     cells: Vec<(usize, LaneMask)>,
+    /// The surface whose colours all samples of the last one are told, [`NOTHING`] where none are yet.
+    colored_as: u32,
     /// Places in pixels, and inverse depths (1/m).
     x: [Lanes; SLOTS],
     y: [Lanes; SLOTS],
@@ -52,6 +54,8 @@ struct Block {
 struct Corners {
     /// As [`Shown`](super::shown::Shown) has it.
     what: u32,
+    /// Its number among the drawing's.
+    surface: u32,
     layer: usize,
     light: [f32; 3],
     shadow: [f32; 3],
@@ -63,6 +67,7 @@ struct Corners {
 impl Corners {
     const NOTHING: Self = Self {
         what: NOTHING,
+        surface: NOTHING,
         layer: 0,
         light: [0.0; 3],
         shadow: [0.0; 3],
@@ -125,68 +130,103 @@ impl Worker {
             origin,
             stack,
         };
-        known.clear();
         known.resize(KNOWN, Corners::NOTHING);
+        for corners in &mut known[..] {
+            corners.what = NOTHING;
+        }
+        let mut gathered = Gathered {
+            place: &place,
+            known,
+            blocks,
+        };
         for (cell, shows) in shown.what.iter().enumerate() {
             let mut is_mesh = lanes_where(shows, |what| (what >= TRIANGLE) & (what != NOTHING));
-            let mut shaded = [0; LANES];
-            if let Some(decals) = decals {
-                let replaced;
-                [replaced, shaded] = decals.lanes(Cell::of_index(cell));
-                for k in 0..LANES {
-                    is_mesh[k] &= !replaced[k];
+            if any(&is_mesh) {
+                let mut shaded = None;
+                if let Some(decals) = decals {
+                    let [replaced, in_shadow] = decals.lanes(Cell::of_index(cell));
+                    for k in 0..LANES {
+                        is_mesh[k] &= !replaced[k];
+                    }
+                    shaded = any(&in_shadow).then_some(in_shadow);
                 }
+                gathered.add_cell(cell, (shows, &is_mesh), shaded.as_ref(), None, target);
             }
-            let on_top = (shows, is_mesh, 0);
-            let below = under.map(|under| {
+            if let Some(under) = under {
                 let mut is_under = lanes_where(shows, |what| what < TRIANGLE);
                 for k in 0..LANES {
                     is_under[k] &= select(under.what[cell][k] != NOTHING, u32::MAX, 0);
                 }
-                (&under.what[cell], is_under, 1)
-            });
-            for (shows, lanes, kind) in [Some(on_top), below].into_iter().flatten() {
-                let mut left = bits(&lanes);
-                while left != 0 {
-                    let what = shows[left.trailing_zeros() as usize];
-                    let mut own = lanes_where(shows, |other| other == what);
-                    for k in 0..LANES {
-                        own[k] &= lanes[k];
-                    }
-                    left &= !bits(&own);
-                    let corners = &mut known[what as usize % KNOWN];
-                    if corners.what != what {
-                        let Some(new) = place.corners(what) else {
-                            continue;
-                        };
-                        *corners = new;
-                    }
-                    let block = &mut blocks[corners.layer][kind];
-                    if block.cells.last().is_none_or(|(last, _)| *last != cell) {
-                        if block.cells.len() == SLOTS {
-                            let layer = &painting.layers[corners.layer];
-                            block.paint(&place, layer, kind == 1, target);
-                        }
-                        block.begin(&place, cell, target);
-                    }
-                    let colors = match (kind, under) {
-                        (1, Some(under)) => &under.color,
-                        _ => &target.color,
-                    };
-                    block.add(cell, corners, colors, stack, &own);
-                    if decals.is_some() && kind == 0 {
-                        for k in 0..LANES {
-                            own[k] &= shaded[k];
-                        }
-                        block.shade(&own);
-                    }
-                }
+                gathered.add_cell(
+                    cell,
+                    (&under.what[cell], &is_under),
+                    None,
+                    Some(under),
+                    target,
+                );
             }
         }
         for (blocks, layer) in blocks.iter_mut().zip(&painting.layers) {
             let [on_top, below] = blocks;
             on_top.paint(&place, layer, false, target);
             below.paint(&place, layer, true, target);
+        }
+    }
+}
+
+/// The samples of a tile that are painted, as they are gathered.
+struct Gathered<'a> {
+    place: &'a Place<'a>,
+    known: &'a mut [Corners],
+    blocks: &'a mut [[Block; 2]],
+}
+
+impl Gathered<'_> {
+    /// Adds some samples of a cell, which show those triangles; of these the ones in a shadow. Of samples under hair what is there.
+    #[inline(always)]
+    fn add_cell(
+        &mut self,
+        cell: usize,
+        (shows, lanes): (&[u32; LANES], &LaneMask),
+        shaded: Option<&LaneMask>,
+        under: Option<&Under>,
+        target: &mut Target,
+    ) {
+        let kind = usize::from(under.is_some());
+        let mut left = bits(lanes);
+        while left != 0 {
+            let what = shows[left.trailing_zeros() as usize];
+            let mut own = lanes_where(shows, |other| other == what);
+            for k in 0..LANES {
+                own[k] &= lanes[k];
+            }
+            left &= !bits(&own);
+            let corners = &mut self.known[what as usize % KNOWN];
+            if corners.what != what {
+                let Some(new) = self.place.corners(what) else {
+                    continue;
+                };
+                *corners = new;
+            }
+            let block = &mut self.blocks[corners.layer][kind];
+            if block.cells.last().is_none_or(|(last, _)| *last != cell) {
+                if block.cells.len() == SLOTS {
+                    let layer = &self.place.frame.drawing.mesh_painting.layers[corners.layer];
+                    block.paint(self.place, layer, under.is_some(), target);
+                }
+                block.begin(self.place, cell, target);
+            }
+            let colors = match under {
+                Some(under) => &under.color,
+                None => &target.color,
+            };
+            block.add(cell, corners, colors, self.place.stack, &own);
+            if let Some(shaded) = shaded {
+                for k in 0..LANES {
+                    own[k] &= shaded[k];
+                }
+                block.shade(&own);
+            }
         }
     }
 }
@@ -242,17 +282,17 @@ impl Place<'_> {
             occlusion[corner] = own * inv_depth;
         }
         let has_occlusion = read.has(SampleInput::Occlusion) && !paint.occlusion.is_empty();
-        let occlusion = match has_occlusion {
-            true => Some(triangle.interpolated(drawing, self.origin, [occlusion])?),
-            false => None,
-        };
+        let [x, y, z] = normal;
+        let numbers = triangle.interpolated(drawing, self.origin, [x, y, z, occlusion])?;
+        let [x, y, z, occlusion] = numbers;
         Some(Corners {
             what,
+            surface: triangle.surface,
             layer: paint.layer as usize,
             light: surface.light,
             shadow: surface.shadow,
-            normal: triangle.interpolated(drawing, self.origin, normal)?,
-            occlusion: occlusion.map(|[occlusion]| occlusion),
+            normal: [x, y, z],
+            occlusion: has_occlusion.then_some(occlusion),
         })
     }
 }
@@ -261,6 +301,7 @@ impl Block {
     fn new() -> Self {
         Self {
             cells: Vec::new(),
+            colored_as: NOTHING,
             x: [[0.0; LANES]; SLOTS],
             y: [[0.0; LANES]; SLOTS],
             inv_depth: [[1.0; LANES]; SLOTS],
@@ -274,13 +315,18 @@ impl Block {
     fn begin(&mut self, place: &Place, index: usize, target: &Target) {
         let slot = self.cells.len();
         self.cells.push((index, [0; LANES]));
+        self.colored_as = NOTHING;
         let cell = Cell::of_index(index);
         let left = (place.origin[0] + cell.column) as f32;
         let top = (place.origin[1] + cell.row * place.stack.height) as f32;
+        let (mut x, mut y) = (place.stack.x, place.stack.y);
         for k in 0..LANES {
-            self.x[slot][k] = left + place.stack.x[k];
-            self.y[slot][k] = top + place.stack.y[k];
+            x[k] += left;
         }
+        for k in 0..LANES {
+            y[k] += top;
+        }
+        (self.x[slot], self.y[slot]) = (x, y);
         // Of samples that show no surface there is none.
         self.inv_depth[slot] = target.surface[index];
     }
@@ -296,8 +342,10 @@ impl Block {
         lanes: &LaneMask,
     ) {
         let slot = self.cells.len() - 1;
-        for k in 0..LANES {
-            self.cells[slot].1[k] |= lanes[k];
+        if let Some((_, all)) = self.cells.last_mut() {
+            for k in 0..LANES {
+                all[k] |= lanes[k];
+            }
         }
         let cell = Cell::of_index(index);
         let inv_depth = self.inv_depth[slot];
@@ -316,18 +364,42 @@ impl Block {
             }
         }
         put(&mut self.samples.occlusion, slot, &occlusion, lanes);
+        // Most cells show one surface: its colours go to all samples, as nobody asks for those of others.
+        if self.colored_as == NOTHING {
+            self.colored_as = corners.surface;
+            self.tell_colors::<true>(slot, corners, colors, index, lanes);
+        } else if self.colored_as != corners.surface {
+            self.tell_colors::<false>(slot, corners, colors, index, lanes);
+        }
+    }
+
+    /// Tells the samples of a cell, or `ALL` of a slot, a surface's own colours.
+    #[inline(always)]
+    fn tell_colors<const ALL: bool>(
+        &mut self,
+        slot: usize,
+        corners: &Corners,
+        colors: &[Plane; 3],
+        index: usize,
+        lanes: &LaneMask,
+    ) {
         let (own, shade) = (&mut self.samples.color, &mut self.samples.shade_color);
-        let own = [&mut own.x, &mut own.y, &mut own.z];
-        let shade = [&mut shade.x, &mut shade.y, &mut shade.z];
-        for (axis, (own, shade)) in own.into_iter().zip(shade).enumerate() {
-            let texel = colors[axis][index];
-            let (mut light, mut shadow) = (texel, texel);
-            for k in 0..LANES {
-                light[k] *= corners.light[axis];
-                shadow[k] *= corners.shadow[axis];
+        for (numbers, factors) in [
+            ([&mut own.x, &mut own.y, &mut own.z], &corners.light),
+            ([&mut shade.x, &mut shade.y, &mut shade.z], &corners.shadow),
+        ] {
+            for axis in 0..3 {
+                let mut color = colors[axis][index];
+                for k in 0..LANES {
+                    color[k] *= factors[axis];
+                }
+                let numbers = &mut *numbers[axis];
+                if ALL {
+                    numbers[slot * LANES..][..LANES].copy_from_slice(&color);
+                } else {
+                    put(numbers, slot, &color, lanes);
+                }
             }
-            put(own, slot, &light, lanes);
-            put(shade, slot, &shadow, lanes);
         }
     }
 

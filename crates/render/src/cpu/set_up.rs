@@ -1,7 +1,7 @@
 //! What triangles need to be drawn in a tile, worked out for some of them at once, as many as a cell has lanes: most have some pixels each, and would take less time to be
 //! drawn than to be looked at one by one.
 
-use super::surface::{Interpolated, Triangle};
+use super::surface::{Interpolated, Tile, Triangle};
 use super::tile::{LANES, Lanes, Slope, greater, lesser, select};
 use crate::drawing::Surface;
 
@@ -13,9 +13,9 @@ pub(super) struct SetUp {
     /// Their numbers among all of a drawing.
     numbers: [u32; LANES],
     count: usize,
-    /// Of each corner: its place from the tile's corner, in pixels.
-    x: [Doubles; 3],
-    y: [Doubles; 3],
+    /// Of each corner: its place, in pixels.
+    x: [Lanes; 3],
+    y: [Lanes; 3],
     inv_depth: [Lanes; 3],
     tone: [Lanes; 3],
     /// Across and down the picture; of triangles without one anything.
@@ -23,6 +23,8 @@ pub(super) struct SetUp {
     pub(super) twice_area: Doubles,
     /// Above 0 inside of each edge.
     inside: [Slopes; 3],
+    /// For each edge no less than what is inside of it at any sample of the tile's first cell.
+    most_inside: [Lanes; 3],
     depth: Slopes,
     tones: Slopes,
     /// Places times inverse depth, which run linearly on the screen.
@@ -115,6 +117,7 @@ impl SetUp {
         places: [[[0.0; LANES]; 3]; 2],
         twice_area: [0.0; LANES],
         inside: [Slopes::LEVEL; 3],
+        most_inside: [[0.0; LANES]; 3],
         depth: Slopes::LEVEL,
         tones: Slopes::LEVEL,
         textured: [Slopes::LEVEL; 2],
@@ -138,22 +141,15 @@ impl SetUp {
 
     /// Adds a triangle of a surface; there is room. With the picture on it, where there is one.
     #[inline(always)]
-    pub(super) fn push(
-        &mut self,
-        number: u32,
-        triangle: &Triangle,
-        surface: &Surface,
-        origin: [usize; 2],
-    ) {
+    pub(super) fn push(&mut self, number: u32, triangle: &Triangle, surface: &Surface) {
         let k = self.count % LANES; // one that compilers know to be there
         self.count += 1;
         self.numbers[k] = number;
-        let [left, top] = [origin[0] as f64, origin[1] as f64];
         let corners = &surface.triangles[triangle.number as usize];
         for (corner, index) in corners.iter().enumerate() {
             let vertex = &surface.vertices[*index as usize];
-            self.x[corner][k] = f64::from(vertex.position.x) - left;
-            self.y[corner][k] = f64::from(vertex.position.y) - top;
+            self.x[corner][k] = vertex.position.x;
+            self.y[corner][k] = vertex.position.y;
             self.inv_depth[corner][k] = vertex.inv_depth;
             self.tone[corner][k] = vertex.tone;
         }
@@ -166,10 +162,11 @@ impl SetUp {
         }
     }
 
-    /// Works out what the triangles need, with a picture on them or without.
+    /// Works out what the triangles need in a tile, with a picture on them or without; and their tones, where light and shadow aren't the same.
     #[inline(always)]
-    pub(super) fn work_out(&mut self, is_textured: bool) {
-        let ([ax, bx, cx], [ay, by, cy]) = (&self.x, &self.y);
+    pub(super) fn work_out(&mut self, is_textured: bool, has_tones: bool, tile: &Tile) {
+        let (x, y) = (from(&self.x, tile.origin[0]), from(&self.y, tile.origin[1]));
+        let ([ax, bx, cx], [ay, by, cy]) = (&x, &y);
         let mut side = [0.0; LANES];
         for k in 0..LANES {
             let area = (bx[k] - ax[k]) * (cy[k] - ay[k]) - (by[k] - ay[k]) * (cx[k] - ax[k]);
@@ -188,9 +185,21 @@ impl SetUp {
                 inside.per_y[k] = (edges.per_y[k] * side[k]) as f32;
             }
         }
+        // Rounding keeps the order of numbers: what grows with the place is greatest at the greatest one.
+        let [[left, right], [top, bottom]] = tile.stack.ends;
+        for (most, inside) in self.most_inside.iter_mut().zip(&self.inside) {
+            for k in 0..LANES {
+                let (per_x, per_y) = (inside.per_x[k], inside.per_y[k]);
+                let x = select(per_x > 0.0, right, left);
+                let y = select(per_y > 0.0, bottom, top);
+                most[k] = inside.corner[k] + (x * per_x + y * per_y);
+            }
+        }
         let area = &self.twice_area;
         self.depth.interpolate(&self.inv_depth, &edges, area);
-        self.tones.interpolate(&self.tone, &edges, area);
+        if has_tones {
+            self.tones.interpolate(&self.tone, &edges, area);
+        }
         if is_textured {
             for (slopes, places) in self.textured.iter_mut().zip(&self.places) {
                 let mut values = *places;
@@ -212,6 +221,13 @@ impl SetUp {
             self.inside[1].of(k),
             self.inside[2].of(k),
         ]
+    }
+
+    /// For each edge no less than that is at any sample of the tile's first cell.
+    #[inline(always)]
+    pub(super) fn most_inside(&self, k: usize) -> [f32; 3] {
+        let [a, b, c] = &self.most_inside;
+        [a[k], b[k], c[k]]
     }
 
     #[inline(always)]
@@ -242,6 +258,19 @@ impl SetUp {
     }
 }
 
+/// Places as they are seen from where a tile begins.
+#[inline(always)]
+fn from(places: &[Lanes; 3], origin: usize) -> [Doubles; 3] {
+    let origin = origin as f64;
+    let mut seen = [[0.0; LANES]; 3];
+    for (seen, places) in seen.iter_mut().zip(places) {
+        for k in 0..LANES {
+            seen[k] = f64::from(places[k]) - origin;
+        }
+    }
+    seen
+}
+
 #[inline(always)]
 fn of_corners(slope: Slope, values: &[Lanes; 3], k: usize) -> Interpolated {
     let [least, greatest] = ends(values, k);
@@ -266,7 +295,9 @@ mod tests {
     use super::*;
     use crate::cpu::bin::Bounds;
     use crate::cpu::surface::Edge;
+    use crate::cpu::tile::Stack;
     use crate::drawing::SurfaceVertex;
+    use crate::samples::sample_positions;
     use glam::{DVec2, Vec2};
     use proptest::prelude::*;
 
@@ -309,10 +340,11 @@ mod tests {
             let mut set_up = SetUp::NOTHING;
             for number in 0..LANES as u32 {
                 let triangle = Triangle { surface: 0, number, bounds: Bounds::default(), nearest: 0.0 };
-                set_up.push(number, &triangle, &surface, ORIGIN);
+                set_up.push(number, &triangle, &surface);
             }
             prop_assert!(set_up.is_full());
-            set_up.work_out(false);
+            let stack = &Stack::of_pixel(&sample_positions(4).unwrap())[0];
+            set_up.work_out(false, true, &Tile { origin: ORIGIN, stack });
             for (k, corners) in corners.iter().enumerate() {
                 let origin = DVec2::new(ORIGIN[0] as f64, ORIGIN[1] as f64);
                 let [a, b, c] = corners.map(|(x, y, ..)| Vec2::new(x, y).as_dvec2() - origin);
@@ -323,11 +355,15 @@ mod tests {
                     let expected = [edge.corner, edge.per_x, edge.per_y].map(|x| (x * area.signum()) as f32);
                     prop_assert_eq!([slope.corner, slope.per_x, slope.per_y], expected);
                 }
+                for (slope, most) in set_up.inside(k).into_iter().zip(set_up.most_inside(k)) {
+                    let first = slope.at_samples(stack).and(0.0);
+                    prop_assert!(first.into_iter().all(|inside| inside <= most));
+                }
                 for (lanes, values) in [
                     (set_up.depths(k), corners.map(|it| it.2)),
                     (set_up.tones(k), corners.map(|it| it.3)),
                 ] {
-                    let expected = Interpolated::new(values, &edges, area);
+                    let [expected] = Interpolated::new(&[values], &edges, area);
                     prop_assert_eq!(lanes.slope, expected.slope);
                     prop_assert_eq!([lanes.least, lanes.greatest], [expected.least, expected.greatest]);
                 }

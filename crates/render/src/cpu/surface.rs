@@ -1,15 +1,18 @@
 //! Triangles in one tile: both sides, edges included, the nearest first.
 
 use super::bin::{Bounds, MARGIN, clip};
+use super::instructions::Instructions;
 use super::set_up::SetUp;
+use super::square::{squares, steps};
 use super::texels::{Pictures, Texels};
 use super::tile::{
-    CELL_WIDTH, CELLS_ACROSS, Cell, LANES, LaneMask, Slope, Stack, Target, WIDTH, any, greater,
-    least, lesser, overwrite, select,
+    CELL_WIDTH, CELLS_ACROSS, LANES, LaneMask, OneByOne, Slope, Stack, Target, WIDTH, any, bits,
+    greater, least, lesser, overwrite, select,
 };
 use crate::drawing::{Coverage, Drawing, Surface, SurfaceVertex};
-use glam::{DVec2, Vec2};
+use glam::{DVec2, Vec2, Vec4};
 use rayon::prelude::*;
+use std::hint::black_box;
 use std::ops::Range;
 
 /// A triangle of a drawing. One that can't be seen lies in no bounds.
@@ -21,6 +24,14 @@ pub(super) struct Triangle {
     pub(super) bounds: Bounds,
     /// Of its nearest corner, 1/m.
     pub(super) nearest: f32,
+}
+
+/// What a surface is drawn in.
+struct Colors {
+    light: [f32; 3],
+    shadow: [f32; 3],
+    /// Whether both are the same.
+    is_flat: bool,
 }
 
 /// Samples of a tile's pixels, as many of each as a stack holds.
@@ -44,28 +55,26 @@ pub(super) fn draw_all<'a>(
     let mut set_up = SetUp::NOTHING;
     let mut left = of_tile;
     while let Some(&first) = left.first() {
-        let surface = all[first as usize].surface;
         // They come surface by surface.
-        let length = left.partition_point(|number| all[*number as usize].surface == surface);
-        let (own, others) = left.split_at(length);
-        left = others;
-        let surface = &drawing.surfaces[surface as usize];
+        let number = all[first as usize].surface;
+        let surface = (number, &drawing.surfaces[number as usize]);
         let to = (&mut *target, &mut *pictures);
-        match &surface.texture {
+        match &surface.1.texture {
             Some(texture) if texture.coverage != Coverage::Ignored => {
-                draw_some::<true>(all, own, surface, tile, &mut set_up, to, &mut shows);
+                draw_some::<true>(all, &mut left, surface, tile, &mut set_up, to, &mut shows);
             }
-            _ => draw_some::<false>(all, own, surface, tile, &mut set_up, to, &mut shows),
+            _ => draw_some::<false>(all, &mut left, surface, tile, &mut set_up, to, &mut shows),
         }
     }
 }
 
-/// Draws triangles of one surface, some at a time. Twice, for pictures that leave samples free and for all else, so that this doesn't pay for them.
+/// Draws the first triangles of those that are left, which are of one surface, some at a time, and takes them away. Twice, for pictures that leave samples
+/// free and for all else, so that this doesn't pay for them.
 #[inline(always)]
 fn draw_some<'a, const CUT: bool>(
     all: &[Triangle],
-    some: &[u32],
-    surface: &'a Surface,
+    left: &mut &[u32],
+    (of_surface, surface): (u32, &'a Surface),
     tile: &Tile,
     set_up: &mut SetUp,
     (target, pictures): (&mut Target, &mut Pictures<'a, '_>),
@@ -73,56 +82,100 @@ fn draw_some<'a, const CUT: bool>(
 ) {
     // What all of the tile shows is as near as this: most of a head's inside and outline is hidden at once.
     let farthest = target.farthest_surface();
-    let mut left = some.iter();
+    let [light, shadow] = surface.drawn_colors();
+    let colors = Colors {
+        light,
+        shadow,
+        is_flat: light == shadow,
+    };
     loop {
         set_up.clear();
         while !set_up.is_full()
-            && let Some(&number) = left.next()
+            && let Some((&number, others)) = left.split_first()
         {
             let triangle = &all[number as usize];
+            if triangle.surface != of_surface {
+                break;
+            }
+            *left = others;
             if triangle.nearest > farthest && !triangle.is_hidden(tile, target) {
-                set_up.push(number, triangle, surface, tile.origin);
+                set_up.push(number, triangle, surface);
             }
         }
         if set_up.numbers().is_empty() {
             return;
         }
-        set_up.work_out(surface.texture.is_some());
+        set_up.work_out(surface.texture.is_some(), !colors.is_flat, tile);
         target.has_margins |= surface.margin_m != 0.0;
         for k in 0..set_up.numbers().len() {
             let number = set_up.numbers()[k];
             let triangle = &all[number as usize];
             let shows = |cell, lanes: &LaneMask| shows(cell, number, lanes);
             let to = (&mut *target, &mut *pictures);
-            triangle.draw::<CUT>(surface, (set_up, k), tile, to, shows);
+            triangle.draw::<CUT>((surface, &colors), (set_up, k), tile, to, shows);
         }
     }
 }
 
 /// Replaces `triangles` by those of a checked drawing, in its order. The pixels' samples are those of `stacks`.
-pub(super) fn collect(drawing: &Drawing, stacks: &[Stack], triangles: &mut Vec<Triangle>) {
-    triangles.clear();
-    for (surface, surface_number) in drawing.surfaces.iter().zip(0..) {
-        let all = surface.triangles.par_iter().enumerate().with_min_len(1024);
-        triangles.par_extend(all.map(|(number, indices)| {
-            let [a, b, c] = indices.map(|i| &surface.vertices[i as usize]);
-            let low = a.position.min(b.position).min(c.position);
-            let high = a.position.max(b.position).max(c.position);
-            let bounds = Bounds::of_box(low, high, drawing.size);
-            Triangle {
-                surface: surface_number,
-                number: number as u32,
-                bounds: bounds
-                    .filter(|_| may_hold_sample(low, high, stacks))
-                    .unwrap_or_default(),
-                nearest: greater(greater(a.inv_depth, b.inv_depth), c.inv_depth),
-            }
-        }));
+pub(super) fn collect(
+    drawing: &Drawing,
+    stacks: &[Stack],
+    instructions: Instructions,
+    triangles: &mut Vec<Triangle>,
+) {
+    let count = drawing.surfaces.iter().map(|it| it.triangles.len()).sum();
+    triangles.resize(count, Triangle::NOWHERE);
+    let mut left = &mut triangles[..];
+    for (surface, number) in drawing.surfaces.iter().zip(0..) {
+        let (own, others) = left.split_at_mut(surface.triangles.len());
+        left = others;
+        let some = own.par_chunks_mut(SOME).enumerate();
+        some.for_each(|(chunk, triangles)| {
+            instructions.run(
+                #[inline(always)]
+                || {
+                    let first = chunk * SOME;
+                    let corners = &surface.triangles[first..];
+                    for (i, (triangle, corners)) in triangles.iter_mut().zip(corners).enumerate() {
+                        let [a, b, c] = [
+                            &surface.vertices[corners[0] as usize],
+                            &surface.vertices[corners[1] as usize],
+                            &surface.vertices[corners[2] as usize],
+                        ];
+                        *triangle = Triangle {
+                            surface: number,
+                            number: (first + i) as u32,
+                            bounds: bounds_of([a, b, c], drawing.size, stacks),
+                            nearest: greater(greater(a.inv_depth, b.inv_depth), c.inv_depth),
+                        };
+                    }
+                },
+            );
+        });
+    }
+}
+
+/// Triangles that are collected by a thread at once.
+const SOME: usize = 1024;
+
+/// The pixels that a triangle reaches; none where no sample is there.
+#[inline(always)]
+fn bounds_of([a, b, c]: [&SurfaceVertex; 3], size: [u32; 2], stacks: &[Stack]) -> Bounds {
+    let (a, b, c) = (a.position, b.position, c.position);
+    let a = Vec4::new(a.x, a.y, -a.x, -a.y);
+    let b = Vec4::new(b.x, b.y, -b.x, -b.y);
+    let c = Vec4::new(c.x, c.y, -c.x, -c.y);
+    let ends = a.min(b).min(c);
+    let (low, high) = (Vec2::new(ends.x, ends.y), -Vec2::new(ends.z, ends.w));
+    match Bounds::of_ends(ends, size) {
+        Some(bounds) if may_hold_sample(low, high, stacks) => bounds,
+        _ => Bounds::default(),
     }
 }
 
 /// Whether any sample may lie in a box. A mesh that is far away has many triangles between two samples.
-#[inline]
+#[inline(always)]
 fn may_hold_sample(low: Vec2, high: Vec2, stacks: &[Stack]) -> bool {
     let size = high - low;
     if size.x * size.y > SMALL_PX2 || size.max_element() >= 1.0 {
@@ -146,6 +199,14 @@ fn twice_area([a, b, c]: [DVec2; 3]) -> f64 {
 }
 
 impl Triangle {
+    /// One that isn't known yet.
+    const NOWHERE: Self = Self {
+        surface: 0,
+        number: 0,
+        bounds: Bounds::NOWHERE,
+        nearest: 0.0,
+    };
+
     #[inline(always)]
     pub(super) fn corners<'a>(&self, drawing: &'a Drawing) -> [&'a SurfaceVertex; 3] {
         let surface = &drawing.surfaces[self.surface as usize];
@@ -176,7 +237,10 @@ impl Triangle {
             Edge::new(points[2], points[0]),
             Edge::new(points[0], points[1]),
         ];
-        (area != 0.0).then(|| values.map(|values| Interpolated::new(values, &edges, area)))
+        if area == 0.0 {
+            return None;
+        }
+        Some(Interpolated::new(&values, &edges, area))
     }
 
     /// The rows of stacks and the cells of each row that it may reach in a tile.
@@ -207,45 +271,71 @@ impl Triangle {
     #[inline(always)]
     fn draw<'a, const CUT: bool>(
         &self,
-        surface: &'a Surface,
+        (surface, colors): (&'a Surface, &Colors),
         (set_up, own): (&SetUp, usize),
         tile: &Tile,
         (target, pictures): (&mut Target, &mut Pictures<'a, '_>),
         mut shows: impl FnMut(usize, &LaneMask),
     ) {
+        let Colors {
+            light,
+            shadow,
+            is_flat,
+        } = *colors;
         if set_up.twice_area[own] == 0.0 {
             return; // it has no inside
         }
         let stack = tile.stack;
-        let [a, b, c] = set_up.inside(own);
-        let inside = [
+        let inside = set_up.inside(own);
+        let most_inside = set_up.most_inside(own);
+        let depths = set_up.depths(own);
+        let [a, b, c] = &inside;
+        let at = [
             a.at_samples(stack),
             b.at_samples(stack),
             c.at_samples(stack),
         ];
-        let depths = set_up.depths(own);
         let depth_at = depths.slope.at_samples(stack);
         // Between corners that are all in light, or all in shadow, nothing else is.
         let tones = set_up.tones(own);
         let is_dark = tones.greatest < 0.0;
-        let [light, shadow] = surface.drawn_colors();
-        let is_one_color = (tones.least >= 0.0) | is_dark | (light == shadow);
+        let is_one_color = (tones.least >= 0.0) | is_dark | is_flat;
         let one_color = if is_dark { shadow } else { light };
-        let tone_at = tones.slope.at_samples(stack);
         // Of a picture that is cut its texels, of others their number once any sample shows it.
         let cut = match &surface.texture {
             Some(texture) if CUT => Some(Texels::new(texture, (set_up, own))),
             _ => None,
         };
         let mut picture = 0;
-        let [rows, across] = self.cells(tile);
-        for row in rows {
-            for cell in across.clone() {
-                let cell = Cell::in_row(row, cell);
-                if depths.greatest <= target.farthest_surface[cell.index] {
-                    continue; // all of the cell shows what is nearer
-                }
-                let [a, b, c] = [inside[0].of(cell), inside[1].of(cell), inside[2].of(cell)];
+        for square in squares(self.cells(tile)) {
+            let places = square.places();
+            let steps = [
+                steps(places, &inside[0], stack),
+                steps(places, &inside[1], stack),
+                steps(places, &inside[2], stack),
+                steps(places, &depths.slope, stack),
+            ];
+            // By way of memory, where each of them is looked up: compilers would work out single ones.
+            let steps = black_box(&steps);
+            // Cells that may have a sample inside, as far as each edge by itself can tell, and don't all show what is nearer.
+            let farthest = square.of(&target.farthest_surface);
+            let mut open = [0; LANES];
+            for k in 0..LANES {
+                let [a, b, c] = [
+                    most_inside[0] + steps[0][k],
+                    most_inside[1] + steps[1][k],
+                    most_inside[2] + steps[2][k],
+                ];
+                open[k] = select(lesser(lesser(a, b), c) >= 0.0, u32::MAX, 0)
+                    & select(depths.greatest > farthest[k], u32::MAX, 0);
+            }
+            for number in OneByOne::of_bits(bits(black_box(&open)) & square.cells) {
+                let cell = square.cell(number);
+                let [a, b, c] = [
+                    at[0].and(steps[0][number]),
+                    at[1].and(steps[1][number]),
+                    at[2].and(steps[2][number]),
+                ];
                 let mut wins = [0_u32; LANES];
                 for k in 0..LANES {
                     let is_inside = lesser(lesser(a[k], b[k]), c[k]) >= 0.0;
@@ -254,7 +344,7 @@ impl Triangle {
                 if !any(&wins) {
                     continue;
                 }
-                let mut depth = depth_at.of(cell);
+                let mut depth = depth_at.and(steps[3][number]);
                 let mut nearest = target.surface[cell.index];
                 for k in 0..LANES {
                     depth[k] = depths.clamp(depth[k]);
@@ -287,13 +377,19 @@ impl Triangle {
                     let margin = [surface.margin_m; LANES];
                     overwrite(&mut target.margin[cell.index], &margin, &wins);
                 }
-                let tone = tone_at.of(cell);
+                let mut is_light = [u32::MAX; LANES];
+                if !is_one_color {
+                    let tone = tones.slope.at_samples(stack).of(cell);
+                    for k in 0..LANES {
+                        is_light[k] = select(tones.clamp(tone[k]) >= 0.0, u32::MAX, 0);
+                    }
+                }
                 for (channel, plane) in target.color.iter_mut().enumerate() {
                     let (light, shadow) = (light[channel], shadow[channel]);
                     let mut color = [one_color[channel]; LANES];
                     if !is_one_color {
                         for k in 0..LANES {
-                            color[k] = select(tones.clamp(tone[k]) >= 0.0, light, shadow);
+                            color[k] = select(is_light[k] != 0, light, shadow);
                         }
                     }
                     if CUT {
@@ -355,23 +451,39 @@ impl Interpolated {
         greatest: 0.0,
     };
 
+    /// Of some values at once, which quotients in double precision are faster by.
     #[inline(always)]
-    pub(super) fn new(values: [f32; 3], edges: &[Edge; 3], area: f64) -> Self {
-        let [e, f, g] = edges;
-        let mean = |a: f64, b: f64, c: f64| {
-            let [v, w, x] = values;
-            ((a * f64::from(v) + b * f64::from(w) + c * f64::from(x)) / area) as f32
-        };
-        let [a, b, c] = values;
-        Self {
-            slope: Slope {
-                corner: mean(e.corner, f.corner, g.corner),
-                per_x: mean(e.per_x, f.per_x, g.per_x),
-                per_y: mean(e.per_y, f.per_y, g.per_y),
-            },
-            least: lesser(lesser(a, b), c),
-            greatest: greater(greater(a, b), c),
+    pub(super) fn new<const N: usize>(
+        values: &[[f32; 3]; N],
+        [e, f, g]: &[Edge; 3],
+        area: f64,
+    ) -> [Self; N] {
+        let mut means = [[0.0; N]; 3];
+        for (mean, [e, f, g]) in means.iter_mut().zip([
+            [e.corner, f.corner, g.corner],
+            [e.per_x, f.per_x, g.per_x],
+            [e.per_y, f.per_y, g.per_y],
+        ]) {
+            for i in 0..N {
+                let [v, w, x] = values[i];
+                let sum = e * f64::from(v) + f * f64::from(w) + g * f64::from(x);
+                mean[i] = (sum / area) as f32;
+            }
         }
+        let mut interpolated = [Self::ZERO; N];
+        for i in 0..N {
+            let [a, b, c] = values[i];
+            interpolated[i] = Self {
+                slope: Slope {
+                    corner: means[0][i],
+                    per_x: means[1][i],
+                    per_y: means[2][i],
+                },
+                least: lesser(lesser(a, b), c),
+                greatest: greater(greater(a, b), c),
+            };
+        }
+        interpolated
     }
 
     #[inline(always)]

@@ -166,6 +166,8 @@ pub(super) struct Stack {
     /// The samples' places for each lane of a cell, from the cell's upper left corner, in pixels.
     pub(super) x: Lanes,
     pub(super) y: Lanes,
+    /// The least and the greatest of the places across, and of those down.
+    pub(super) ends: [[f32; 2]; 2],
     /// For each lane the middle of those of its pixel's samples that look pictures up together.
     pub(super) middle: [Lanes; 2],
     /// How many samples of its pixels come before its own.
@@ -195,9 +197,16 @@ impl Stack {
                 own.iter().sum::<Vec2>() / own.len() as f32 + pixel(k)
             };
             let place = |k: usize| *samples.get(k % of_pixel).unwrap_or(&samples[0]) + pixel(k);
+            let x: Lanes = std::array::from_fn(|k| place(k).x);
+            let y: Lanes = std::array::from_fn(|k| place(k).y);
+            let ends = |places: Lanes| {
+                let greatest = places.into_iter().fold(f32::NEG_INFINITY, f32::max);
+                [places.into_iter().fold(f32::INFINITY, f32::min), greatest]
+            };
             Self {
-                x: std::array::from_fn(|k| place(k).x),
-                y: std::array::from_fn(|k| place(k).y),
+                x,
+                y,
+                ends: [ends(x), ends(y)],
                 middle: [
                     std::array::from_fn(|k| middle(k).x),
                     std::array::from_fn(|k| middle(k).y),
@@ -840,6 +849,12 @@ impl Samples {
     #[inline(always)]
     pub(super) fn of(&self, cell: Cell) -> Lanes {
         let step = number(cell.column) * self.per_column + number(cell.row) * self.per_row;
+        self.and(step)
+    }
+
+    /// At those of a cell where it is so much more than in the tile's first one.
+    #[inline(always)]
+    pub(super) fn and(&self, step: f32) -> Lanes {
         let mut lanes = self.first;
         for k in 0..LANES {
             lanes[k] += step;
