@@ -9,9 +9,10 @@
 //!
 //! No strand's answer hangs on the order in which others are found: of all planes the deepest holds.
 //!
-//! Its parts, of which each imports those above it alone: `keeps`, how far what is near at rest keeps apart; `meeting`, two links; `ways`, where
-//! strands go; `pairs`, which come near each other.
+//! Its parts, of which each imports those above it alone: `keeps`, how far what is near at rest keeps apart; `meeting`, two links; `boxes`, around what
+//! pieces sweep; `ways`, where strands go; `pairs`, which come near each other.
 
+mod boxes;
 mod keeps;
 mod meeting;
 mod pairs;
@@ -30,8 +31,8 @@ use super::{
 };
 use keeps::Keeps;
 use meeting::{Links, Meeting, SLOW, closest};
-use pairs::{Four, Pairs, ones};
-use ways::{PIECE, Ways};
+use pairs::{MeetFour, Pairs, ones};
+use ways::{PIECE, Ways, is_a_lock};
 
 /// Links that come this near to touching, in m, get a plane.
 const NEAR: f64 = 2e-3;
@@ -165,7 +166,7 @@ impl Locks {
             particles.push(particle + batch.count() * LANES);
             for lane in 0..LANES {
                 let (count, radius) = (batch.counts[lane], batch.lock_radius[lane]);
-                let Some(strand) = batch.strands[lane].filter(|_| radius > 0.0) else {
+                let Some(strand) = batch.strands[lane].filter(|_| is_a_lock(batch, lane)) else {
                     continue;
                 };
                 strands.push(pieces.len());
@@ -187,7 +188,7 @@ impl Locks {
         let mut locks = Self {
             keeps: Keeps::default(),
             dt: 0.0,
-            ways: Ways::new(batches, pieces.len()),
+            ways: Ways::new(batches, &pieces),
             pairs: Pairs::new(&strands),
             found: vec![Found::default(); TASKS],
             holds: vec![None; particles[batches.len()]],
@@ -202,14 +203,11 @@ impl Locks {
     /// Finds which pieces are near each other at rest.
     fn rest(&mut self, batches: &[Batch], states: &[BatchState]) {
         let still = Surroundings::default();
-        self.ways
-            .follow::<Lane>(&self.pieces, batches, states, (&still, 0.0));
         // As far as a share of the distance is less than both radii.
-        let more = 1.0 / OF_REST - 1.0;
-        for (sweep, piece) in self.ways.sweeps.iter_mut().zip(&self.pieces) {
-            sweep.bounds = sweep.bounds.larger_by((piece.radius * more + NEAR) as f32);
-        }
-        self.pairs.find(&self.ways.sweeps, &self.strands);
+        let more = (1.0 / OF_REST - 1.0, NEAR);
+        self.ways
+            .follow::<Lane>(batches, states, (&still, 0.0), more);
+        self.pairs.find(&self.ways.strands);
         let mut keeps = Keeps::default();
         for pair in self.pairs.all() {
             let mut near = Vec::new();
@@ -223,12 +221,12 @@ impl Locks {
                     near.push(([own, other], (apart * OF_REST) as f32));
                 }
             };
-            let sweeps = &self.ways.sweeps;
-            let tell = |own: usize, (_, first): (usize, usize), meet: u32, _: &Four| {
-                ones(meet).for_each(|other| look(own, first + other));
+            let fours = &self.ways.fours;
+            let tell = |meet: &MeetFour| {
+                ones(meet.bits).for_each(|other| look(meet.piece, meet.first + other));
             };
             self.pairs
-                .pieces(pair, sweeps, &self.strands, |_, _| !0, tell);
+                .pieces(pair, fours, &self.strands, |_, _| !0, tell);
             keeps.add(*pair, &near, &self.strands);
         }
         keeps.index();
@@ -262,8 +260,8 @@ impl Locks {
     ) {
         self.dt = dt;
         self.ways
-            .follow::<T>(&self.pieces, batches, states, (surroundings, dt));
-        self.pairs.find(&self.ways.sweeps, &self.strands);
+            .follow::<T>(batches, states, (surroundings, dt), (0.0, 0.0));
+        self.pairs.find(&self.ways.strands);
         let mut found = std::mem::take(&mut self.found);
         let tasks = (self.pairs.all().len() / WORTH_A_TASK).clamp(1, TASKS);
         // What one task has found another may find in the next step: with room for that, no list grows once hair has moved.
@@ -332,19 +330,22 @@ impl Locks {
                     let keeps = self.keeps.between(pair, &self.strands);
                     self.pairs.pieces(
                         pair,
-                        &self.ways.sweeps,
+                        &self.ways.fours,
                         &self.strands,
                         #[inline(always)]
                         |own, four| keeps.kept(own, four),
                         #[inline(always)]
-                        |own, (number, first), meet, four| {
-                            let keep = keeps.of(own, number);
-                            let (may_meet, farther) = four.near(&self.ways.sweeps[own], keep);
-                            near.extend(ones(meet & may_meet).map(|i| NearPieces {
-                                pieces: [own, first + i],
-                                keep: keep[i],
-                                farther: farther[i],
-                            }));
+                        |meet| {
+                            let keep = keeps.of(meet.place.0, meet.place.1);
+                            let (may_meet, farther) = meet.four.near(meet.own, meet.one, keep);
+                            let (keep, farther) = (keep.to_array(), farther.to_array());
+                            for i in ones(meet.bits & may_meet) {
+                                near.push(NearPieces {
+                                    pieces: [meet.piece, meet.first + i],
+                                    keep: keep[i],
+                                    farther: farther[i],
+                                });
+                            }
                         },
                     );
                 }
@@ -353,7 +354,10 @@ impl Locks {
     }
 
     /// Finds the links of such pieces that may meet, and the planes of those that do, four by four.
-    fn find_among<T: Number>(&self, Found { near, met, planes }: &mut Found) {
+    fn find_among<T: Number>(&self, found: &mut Found) {
+        let Found {
+            near, met, planes, ..
+        } = found;
         T::run(
             #[inline(always)]
             || {
@@ -504,7 +508,7 @@ impl Locks {
 
 #[cfg(test)]
 mod tests {
-    use super::{pairs::FOUR, *};
+    use super::{boxes::FOUR, *};
     use crate::{Params, Solver, Strands};
 
     #[test]
@@ -552,7 +556,8 @@ mod tests {
             let pair = [strand(one), strand(two)];
             let keeps = (locks.keeps).between(&pair.map(|strand| strand as u32), &locks.strands);
             let its = two - locks.strands[pair[1]];
-            let keep = f64::from(keeps.of(one, its / FOUR)[its % FOUR]);
+            let own_number = one - locks.strands[pair[0]];
+            let keep = f64::from(keeps.of(own_number, its / FOUR)[its % FOUR]);
             let keep = keep.min(own.radius + other.radius);
             if pair[0] == pair[1] || keep == 0.0 {
                 continue;

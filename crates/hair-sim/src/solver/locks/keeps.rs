@@ -2,7 +2,7 @@
 
 use glam::Vec4;
 
-use super::pairs::FOUR;
+use super::boxes::FOUR;
 
 /// No pair of strands.
 const FREE: [u32; 2] = [u32::MAX; 2];
@@ -70,11 +70,10 @@ impl Keeps {
     #[inline(always)]
     pub(super) fn between(&self, pair: &[u32; 2], strands: &[usize]) -> Between<'_> {
         let from = self.table[self.place(*pair)].1;
-        let [one, other] = pair.map(|strand| strand as usize);
+        let other = pair[1] as usize;
         Between {
             keeps: &self.keeps[from..],
             kept: &self.kept[from..],
-            first: strands[one],
             fours: (strands[other + 1] - strands[other]).div_ceil(FOUR),
         }
     }
@@ -84,22 +83,22 @@ impl Keeps {
 pub(super) struct Between<'a> {
     keeps: &'a [Vec4],
     kept: &'a [u32],
-    first: usize,
     fours: usize,
 }
 
 impl Between<'_> {
-    /// How far a piece keeps from four of the other strand, of the fours the one of this number, in m: 0, not at all; infinite, as far as any.
+    /// How far a piece, by its number on its strand, keeps from four of the other strand, of the fours the one of this number, in m: 0, not at all;
+    /// infinite, as far as any.
     #[inline(always)]
     pub(super) fn of(&self, own: usize, four: usize) -> Vec4 {
-        let place = (own - self.first) * self.fours + four;
+        let place = own * self.fours + four;
         self.keeps.get(place).map_or(Vec4::INFINITY, |&keeps| keeps)
     }
 
     /// Which of these it keeps apart from, as bits.
     #[inline(always)]
     pub(super) fn kept(&self, own: usize, four: usize) -> u32 {
-        let place = (own - self.first) * self.fours + four;
+        let place = own * self.fours + four;
         self.kept.get(place).map_or(!0, |&kept| kept)
     }
 }
@@ -124,12 +123,12 @@ mod tests {
                 let [one, other] = pair(i);
                 let between = keeps.between(&[one as u32, other as u32], &strands);
                 let expected = Vec4::INFINITY.with_y(i as f32);
-                assert_eq!(between.of(one * 6 + 5, 1), expected);
-                assert_eq!(between.of(one * 6 + 4, 1), Vec4::INFINITY);
-                assert_eq!(between.kept(one * 6 + 5, 1), if i > 0 { 15 } else { 13 });
+                assert_eq!(between.of(5, 1), expected);
+                assert_eq!(between.of(4, 1), Vec4::INFINITY);
+                assert_eq!(between.kept(5, 1), if i > 0 { 15 } else { 13 });
                 let between = keeps.between(&[one as u32 + 40, other as u32], &strands);
-                assert_eq!(between.of((one + 40) * 6 + 5, 1), Vec4::INFINITY);
-                assert_eq!(between.kept((one + 40) * 6 + 5, 1) & 15, 15);
+                assert_eq!(between.of(5, 1), Vec4::INFINITY);
+                assert_eq!(between.kept(5, 1) & 15, 15);
             }
         }
     }
