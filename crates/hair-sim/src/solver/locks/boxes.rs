@@ -174,17 +174,21 @@ impl Four {
         hand_out(rows, &mut to, |four| four.radius, |four| &mut four.radius);
     }
 
-    /// Which of them one of others may meet, as far as it is known of each by itself, as bits.
+    /// Which of them others may meet, as far as it is known of each by itself, as bits, those of every one of the others behind those of the one before.
     #[inline(always)]
-    pub(super) fn meet(&self, others: &Self, one: usize) -> u32 {
-        let gaps = self.bounds.gaps(&others.bounds, one);
-        gaps.cmple(Vec4::ZERO).bitmask()
+    pub(super) fn meet(&self, others: &Self) -> u32 {
+        let of = |one: usize| {
+            let gaps = self.bounds.gaps(&others.bounds, one);
+            gaps.cmple(Vec4::ZERO).bitmask() << (FOUR * one)
+        };
+        of(0) | of(1) | of(2) | of(3)
     }
 
-    /// Which of them one of others may meet, as bits, where it keeps `keep` metres from each, or as many as both radii; and how much farther they may meet
-    /// than half way through the step, besides their radii.
+    /// Which of them one of others may meet, as bits, where it keeps `keep` metres from each, or as many as both radii; and, besides their radii,
+    /// how far it keeps; by how much going against each other is slow; and how much farther than half way through the step they may meet, besides their
+    /// radii.
     #[inline(always)]
-    pub(super) fn near(&self, others: &Self, one: usize, keep: Vec4) -> (u32, Vec4) {
+    pub(super) fn near(&self, others: &Self, one: usize, keep: Vec4) -> (u32, [Vec4; 3]) {
         let square = |axis: usize| {
             let against = self.way[axis] - all(&others.way[axis], one);
             against * against
@@ -193,11 +197,12 @@ impl Four {
         let against = against + self.spread + all(&others.spread, one);
         let radii = self.radius + all(&others.radius, one);
         let keep = keep.min(radii);
+        let (more, slow) = (keep - radii, keep * SLOW as f32);
         let acts = against.min(self.own + all(&others.own, one));
-        let acts = Vec4::select(acts.cmpgt(keep * SLOW as f32), acts, Vec4::ZERO);
-        let farther = keep - radii + against * 0.5 + acts;
+        let acts = Vec4::select(acts.cmpgt(slow), acts, Vec4::ZERO);
+        let farther = more + against * 0.5 + acts;
         let near = self.mid.gaps(&others.mid, one).cmple(farther);
-        (near.bitmask(), farther)
+        (near.bitmask(), [more, slow, farther])
     }
 }
 

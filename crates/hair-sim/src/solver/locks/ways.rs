@@ -206,7 +206,11 @@ impl Sweep {
     fn not_apart(&self, other: &Self, keep: f32) -> u32 {
         let between = Vec3A::from_vec4(other.middle - self.middle);
         let [along, its_along] = [self, other].map(|sweep| Vec3A::from_vec4(sweep.along));
-        let along = along * along.dot(its_along).signum() + its_along;
+        let along = if along.dot(its_along) < 0.0 {
+            its_along - along
+        } else {
+            its_along + along
+        };
         let way = between - along * (between.dot(along) / along.length_squared().max(1e-20));
         let toward = Vectors([Vec4::splat(way.x), Vec4::splat(way.y), Vec4::splat(way.z)]);
         let far = toward.dot(&self.center) + toward.dot(&self.half).abs();
@@ -266,7 +270,6 @@ struct Place {
     points: usize,
     pieces: usize,
     fours: usize,
-    strands: usize,
 }
 
 /// Where the strands of some batches go in a step.
@@ -280,8 +283,8 @@ pub(super) struct Ways {
     pub sweeps: Vec<Sweep>,
     /// Of every four pieces of a strand.
     pub fours: Vec<Four>,
-    /// Of every strand.
-    pub strands: Vec<Bounds>,
+    /// Around all that these may meet.
+    pub bounds: Vec<Bounds>,
 }
 
 impl Ways {
@@ -292,19 +295,16 @@ impl Ways {
                 points,
                 mut pieces,
                 mut fours,
-                mut strands,
             } = places[index];
             for lane in (0..LANES).filter(|&lane| is_a_lock(batch, lane)) {
                 let count = batch.counts[lane].div_ceil(PIECE);
                 pieces += count;
                 fours += count.div_ceil(FOUR);
-                strands += 1;
             }
             places.push(Place {
                 points: points + batch.count() + 1,
                 pieces,
                 fours,
-                strands,
             });
         }
         let all = places[batches.len()];
@@ -316,7 +316,7 @@ impl Ways {
                 .map(|piece| Sweep::with(piece.links))
                 .collect(),
             fours: vec![Four::NONE; all.fours],
-            strands: vec![Bounds::NONE; all.strands],
+            bounds: vec![Bounds::NONE; all.fours],
         }
     }
 
@@ -349,7 +349,7 @@ impl Ways {
             points: &mut self.points,
             sweeps: &mut self.sweeps,
             fours: &mut self.fours,
-            strands: &mut self.strands,
+            bounds: &mut self.bounds,
         };
         step.follow::<T>(all);
     }
@@ -359,9 +359,11 @@ impl Ways {
     pub(super) fn link(&self, piece: &Piece, link: usize) -> [[DVec3; 2]; 2] {
         let from = self.places[piece.batch].points + piece.first + link;
         let [start, end] = [&self.points[from], &self.points[from + 1]];
+        // Known to be a lane without a look.
+        let lane = piece.lane % LANES;
         [
-            [start[0].get(piece.lane), start[1].get(piece.lane)],
-            [end[0].get(piece.lane), end[1].get(piece.lane)],
+            [start[0].get(lane), start[1].get(lane)],
+            [end[0].get(lane), end[1].get(lane)],
         ]
     }
 
@@ -369,7 +371,8 @@ impl Ways {
     #[inline(always)]
     pub(super) fn shift(&self, piece: &Piece) -> DVec3 {
         let [before, now] = &self.points[self.places[piece.batch].points];
-        now.get(piece.lane) - before.get(piece.lane)
+        let lane = piece.lane % LANES;
+        now.get(lane) - before.get(lane)
     }
 }
 
@@ -387,7 +390,7 @@ struct Part<'a> {
     points: &'a mut [[Vec3; 2]],
     sweeps: &'a mut [Sweep],
     fours: &'a mut [Four],
-    strands: &'a mut [Bounds],
+    bounds: &'a mut [Bounds],
 }
 
 impl<'a> Part<'a> {
@@ -400,7 +403,7 @@ impl<'a> Part<'a> {
         let (points, later_points) = self.points.split_at_mut(to.points - from.points);
         let (sweeps, later_sweeps) = self.sweeps.split_at_mut(to.pieces - from.pieces);
         let (fours, later_fours) = self.fours.split_at_mut(to.fours - from.fours);
-        let (strands, later_strands) = self.strands.split_at_mut(to.strands - from.strands);
+        let (bounds, later_bounds) = self.bounds.split_at_mut(to.fours - from.fours);
         let first = Part {
             batches,
             states,
@@ -408,7 +411,7 @@ impl<'a> Part<'a> {
             points,
             sweeps,
             fours,
-            strands,
+            bounds,
         };
         let later = Part {
             batches: later_batches,
@@ -417,7 +420,7 @@ impl<'a> Part<'a> {
             points: later_points,
             sweeps: later_sweeps,
             fours: later_fours,
-            strands: later_strands,
+            bounds: later_bounds,
         };
         (first, later)
     }
@@ -474,7 +477,7 @@ impl Step<'_> {
             let now = root.load::<T>() + y + v * self.dt;
             *point = [before.store(), now.store()];
         }
-        if part.strands.is_empty() {
+        if part.fours.is_empty() {
             return;
         }
         let shift = (root - state.root).load::<T>();
@@ -493,7 +496,9 @@ impl Step<'_> {
         };
         let there = Vec4::from_array(std::array::from_fn(is_there));
         let mut sweeps = by_lane(part.sweeps, has);
-        let mut fours = by_lane(part.fours, has.map(|count| count.div_ceil(FOUR)));
+        let has_fours = has.map(|count| count.div_ceil(FOUR));
+        let mut fours = by_lane(part.fours, has_fours);
+        let mut bounds = by_lane(part.bounds, has_fours);
         let (mut spare, mut spare_fours) = ([Sweep::NONE; LANES], [Four::NONE; LANES]);
         let mut whole = Row::NONE;
         let mut rows = [Row::NONE; FOUR];
@@ -515,6 +520,14 @@ impl Step<'_> {
             ]);
             if number % FOUR == FOUR - 1 || number == last {
                 rows[number % FOUR + 1..].fill(Row::NONE);
+                let [of_a, of_b, of_c, of_d] = &mut bounds;
+                let of_lanes = [of_a, of_b, of_c, of_d];
+                for (of_lane, bounds) in of_lanes.into_iter().zip(whole.bounds()) {
+                    if let Some(of_four) = of_lane.get_mut(number / FOUR) {
+                        *of_four = bounds;
+                    }
+                }
+                whole = Row::NONE;
                 let four = number / FOUR;
                 let [a, b, c, d] = &mut spare_fours;
                 let [of_a, of_b, of_c, of_d] = &mut fours;
@@ -527,14 +540,6 @@ impl Step<'_> {
                         of_d.get_mut(four).unwrap_or(d),
                     ],
                 );
-            }
-        }
-        let mut strands = part.strands.iter_mut();
-        for (lane, bounds) in whole.bounds().into_iter().enumerate() {
-            if has[lane] > 0 {
-                if let Some(strand) = strands.next() {
-                    *strand = bounds;
-                }
             }
         }
     }
