@@ -9,13 +9,14 @@
 //!
 //! No strand's answer hangs on the order in which others are found: of all planes the deepest holds.
 //!
-//! Its parts, of which each imports those above it alone: `keeps`, how far what is near at rest keeps apart; `meeting`, two links; `boxes`, around what
-//! pieces sweep; `ways`, where strands go; `pairs`, which come near each other.
+//! Its parts, of which each imports those above it alone: `meeting`, two links; `single`, numbers; `boxes`, around what pieces sweep, by fours; `keeps`, how far
+//! what is near at rest keeps apart; `ways`, where strands go; `pairs`, which come near each other.
 
 mod boxes;
 mod keeps;
 mod meeting;
 mod pairs;
+mod single;
 mod ways;
 
 use crate::{
@@ -219,7 +220,7 @@ impl Locks {
         for &pair in self.pairs.all() {
             let [four, other] = pair.map(|four| four as usize);
             let fours = &self.ways.fours;
-            let mut of_pair = Vec::new();
+            let mut of_pair = keeps::Near::new();
             for bit in ones(fours[other].meet(&fours[four])) {
                 let (i, j) = (bit / FOUR, bit % FOUR);
                 let [one, its] = [self.fours[four] + i, self.fours[other] + j];

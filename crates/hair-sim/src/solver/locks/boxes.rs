@@ -6,7 +6,7 @@ use crate::lanes::LANES;
 
 use super::{
     meeting::SLOW,
-    ways::{ROUNDED, Vectors, all},
+    single::{ROUNDED, Vectors, all},
 };
 
 /// Pieces whose boxes are looked at together.

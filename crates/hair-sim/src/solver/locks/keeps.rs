@@ -7,6 +7,9 @@ use super::boxes::FOUR;
 /// No pair of fours.
 const FREE: [u32; 2] = [u32::MAX; 2];
 
+/// Pieces of four and of four others, by their numbers there, and how far they keep, in m.
+pub(super) type Near = Vec<([usize; 2], f32)>;
+
 /// Of pairs of four pieces of a strand.
 #[derive(Clone, Debug)]
 pub(super) struct Keeps {
@@ -36,8 +39,8 @@ impl Apart {
 }
 
 impl Keeps {
-    /// Of pairs of fours, each once: pieces by their numbers there, and how far they keep, in m.
-    pub(super) fn new(near: &[([u32; 2], Vec<([usize; 2], f32)>)]) -> Self {
+    /// Of pairs of fours, each once.
+    pub(super) fn new(near: &[([u32; 2], Near)]) -> Self {
         let mut all = vec![(FREE, Apart::FREE)];
         for (pair, near) in near {
             let mut apart = Apart::FREE;
