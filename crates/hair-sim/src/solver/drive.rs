@@ -209,7 +209,12 @@ pub(crate) fn prepare<T: Number>(
         loads.springs.fill(Spring::NONE);
     }
     if batch.has_goal.any() {
-        pull_to_goals::<T>(batch, state, loads, drive);
+        // As two functions, so that who recalls nothing pays nothing.
+        if batch.recall.gt(Lane::ZERO).any() {
+            pull_to_goals::<T, true>(batch, state, loads, drive);
+        } else {
+            pull_to_goals::<T, false>(batch, state, loads, drive);
+        }
     }
     for own in drive.anchors {
         pull_to_anchor(own, state, root.root, loads, drive.dt);
@@ -317,7 +322,7 @@ fn recalled<T: Number>(batch: &Batch, way: Vec3<T>, speed: Vec3<T>, up: Vec3<T>)
 }
 
 #[inline(always)]
-fn pull_to_goals<T: Number>(
+fn pull_to_goals<T: Number, const RECALLS: bool>(
     batch: &Batch,
     state: &mut BatchState,
     loads: &mut Loads,
@@ -336,7 +341,6 @@ fn pull_to_goals<T: Number>(
     let poses = batch.strands.map(pose);
     let gravity = drive.surroundings.gravity;
     let up = Vec3::<T>::all(gravity.normalize_or_zero() * -1.0);
-    let recalls = batch.recall.gt(Lane::ZERO).any();
     let turned = Turned::<T>::by(&poses);
     let has_strand = Mask::new(batch.strands.map(|strand| strand.is_some()));
     let here = T::condition(&has_strand);
@@ -379,7 +383,7 @@ fn pull_to_goals<T: Number>(
         let spring = &mut loads.springs[k];
         let stiffness = batch.particles[k].goal.load::<T>();
         spring.pull(stiffness, before, now, acceleration, GAMMA, drive.dt);
-        if recalls {
+        if RECALLS {
             let way = before - state.y[k].load();
             let speed = state.v[k].load::<T>() - (now - before) * (1.0 / drive.dt);
             let (stiffness, lift) = recalled(batch, way, speed, up);
