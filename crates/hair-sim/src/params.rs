@@ -143,6 +143,12 @@ pub struct Params {
     /// Pull of every particle towards its place in the goal shape, in 1/s^2, 0 to 1e9: acceleration per
     /// metre. It is damped critically.
     pub goal: Profile,
+    /// Pull of every particle that has come to lie far from its place in the goal shape, such as on the other side of a shoulder, in m/s^2, 0 to 1e4, whatever
+    /// the distance. It goes up and over what lies between, is damped critically, and fades where hair moves against the shape: what swings is hardly
+    /// pulled.
+    pub recall: f64,
+    /// How far from its place a particle may lie without being recalled, in m, 1e-6 to 1e3; at twice that it is pulled in full.
+    pub recall_from: f64,
     /// The distance in m that a strand keeps from colliders, 0 to 0.1.
     pub thickness: f64,
     /// Coulomb's coefficient of friction, 0 to 10.
@@ -164,6 +170,8 @@ impl Default for Params {
             wind: Profile::constant(1.0),
             drag_along: 0.5,
             goal: Profile::constant(0.0),
+            recall: 0.0,
+            recall_from: 0.05,
             thickness: 1e-3,
             friction: 0.3,
             lock_radius: 0.0,
@@ -173,7 +181,10 @@ impl Default for Params {
 
 impl Params {
     pub(crate) fn has_goal(&self) -> bool {
-        self.goal.root > 0.0 || self.goal.middle > 0.0 || self.goal.tip > 0.0
+        let Profile { root, middle, tip } = self.goal;
+        [root, middle, tip, self.recall]
+            .iter()
+            .any(|pull| *pull > 0.0)
     }
 
     /// The longest step in s, 1/144 to 1/24, in which a strand of `length` metres, above 0, swings as in fine ones where gravity is
@@ -227,6 +238,8 @@ impl Params {
             ("wind", profile(&self.wind, 0.0, 1e3), 0.0, 1e3),
             ("drag_along", self.drag_along, 0.0, 1.0),
             ("goal", profile(&self.goal, 0.0, 1e9), 0.0, 1e9),
+            ("recall", self.recall, 0.0, 1e4),
+            ("recall_from", self.recall_from, 1e-6, 1e3),
             ("thickness", self.thickness, 0.0, 0.1),
             ("friction", self.friction, 0.0, 10.0),
             ("lock_radius", self.lock_radius, 0.0, 0.1),
@@ -265,6 +278,11 @@ mod tests {
 
     #[test]
     fn what_is_out_of_range_is_named() {
+        let bad = Params {
+            recall_from: 0.0,
+            ..Params::default()
+        };
+        assert_eq!(bad.out_of_range().unwrap().0, "recall_from");
         assert_eq!(Params::default().out_of_range(), None);
         let bad = Params {
             damping: f64::NAN,

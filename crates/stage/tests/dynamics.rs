@@ -593,6 +593,52 @@ fn hair_that_has_come_to_rest_sleeps() {
     assert!(awake.is_empty(), "{awake:?}");
 }
 
+/// Hair that a quick turn has thrown over a shoulder stays there, unless it is recalled: then it is back on its own side a second after the head is.
+#[test]
+fn hair_that_is_thrown_over_a_shoulder_is_recalled() {
+    let mut registry = Registry::new();
+    effects_builtin::register(&mut registry).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let turn = |angle: i32| {
+        let path = folder.path().join(format!("{angle}.motion.ron"));
+        let script = format!(
+            "(version: 1, moves: [(move: turn, start: 0.1, length: 0.4, angle: {angle}), (move: turn, start: 0.9, length: 0.4, angle: {})])",
+            -angle
+        );
+        fs::write(&path, script).unwrap();
+        (path, 1.3)
+    };
+    let looks_back = presets().join("motions/head-turn.motion.ron");
+    let text = fs::read_to_string(presets().join("long-pink.ron")).unwrap();
+    for (script, end_s) in [(looks_back, 3.1), turn(70), turn(-70), turn(90)] {
+        let left = ["0", "4"].map(|recall| {
+            let mut preset = Preset::parse("look.ron", &text, &registry).unwrap();
+            preset.set("dynamics.recall", recall).unwrap();
+            let files = Files {
+                preset_folder: presets(),
+                motion: Some(script.clone()),
+                ..Files::default()
+            };
+            let scene = Scene::load(&preset, &files).unwrap();
+            let mut motion = Motion::new();
+            motion.advance_to(&scene, 0.0).unwrap();
+            let rest = motion.points(&scene, 0).to_vec();
+            // A second after the head is back, and once all is at rest.
+            [1.0, 8.0].map(|after_s| {
+                motion.advance_to(&scene, end_s + after_s).unwrap();
+                farthest(motion.points(&scene, 0), &rest) / scene.head().height_m
+            })
+        });
+        let [free, recalled] = left;
+        println!(
+            "{}: {free:.2?} head heights from where it was styled after 1 and 8 s; recalled {recalled:.2?}",
+            script.display()
+        );
+        assert!(free[1] > 0.5, "{free:?}");
+        assert!(recalled[0] < 0.2 && recalled[1] < 0.01, "{recalled:?}");
+    }
+}
+
 /// Locks of looks that keep out of each other when a head turns fast, at 60 frames a second: it moves them, and costs few iterations more.
 #[test]
 fn locks_keep_out_of_each_other_in_looks() {

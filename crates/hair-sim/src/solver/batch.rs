@@ -36,6 +36,9 @@ pub(crate) struct Batch {
     /// Distance kept from colliders, in m.
     pub thickness: Lane,
     pub friction: Lane,
+    /// Pull in m/s^2 of particles that lie farther than so many metres from their goals.
+    pub recall: Lane,
+    pub recall_from: Lane,
     /// Half the thickness of the lock that a strand stands for, in m.
     pub lock_radius: Lane,
     /// Planes that may hold particles: one of bodies for each, and where hair meets hair one of other strands for each.
@@ -88,6 +91,8 @@ impl Batch {
             lever: Lane::ZERO,
             thickness: Lane::ZERO,
             friction: Lane::ZERO,
+            recall: Lane::ZERO,
+            recall_from: Lane::ONE,
             lock_radius: Lane::ZERO,
             planes: count,
             styled: vec![Vec3::ZERO; count],
@@ -110,6 +115,8 @@ impl Batch {
         self.drag_along[lane] = params.drag_along;
         self.thickness[lane] = params.thickness;
         self.friction[lane] = params.friction;
+        self.recall[lane] = params.recall;
+        self.recall_from[lane] = params.recall_from;
         self.lock_radius[lane] = params.lock_radius;
         self.root.set(lane, rest.root);
         self.base.set(lane, rest.base);

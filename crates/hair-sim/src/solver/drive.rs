@@ -25,6 +25,15 @@ use super::{
     stage::GAMMA,
 };
 
+/// The speed in m/s at which half of what recalls a particle is left.
+const CALM: f64 = 0.5;
+
+/// A recalled particle is pulled to so much higher than its place as it is beside that: up and over what lies between.
+const OVER: f64 = 2.0;
+
+/// Nearer than this, in m, to where it is pulled to a particle isn't.
+const LEAST_WAY: f64 = 1e-6;
+
 /// What drives a batch in a step.
 pub(crate) struct Drive<'a> {
     pub dt: f64,
@@ -200,7 +209,12 @@ pub(crate) fn prepare<T: Number>(
         loads.springs.fill(Spring::NONE);
     }
     if batch.has_goal.any() {
-        pull_to_goals::<T>(batch, state, loads, drive);
+        // As two functions, so that who recalls nothing pays nothing.
+        if batch.recall.gt(Lane::ZERO).any() {
+            pull_to_goals::<T, true>(batch, state, loads, drive);
+        } else {
+            pull_to_goals::<T, false>(batch, state, loads, drive);
+        }
     }
     for own in drive.anchors {
         pull_to_anchor(own, state, root.root, loads, drive.dt);
@@ -289,8 +303,26 @@ impl<T: Number> Turned<T> {
     }
 }
 
+/// The pull on particles that lie so far from their goals, in m, and move against them at such a speed, in m/s, where `up` is against gravity: its
+/// stiffness, and how far above the goal it pulls to. See [`Params::recall`](crate::Params::recall).
 #[inline(always)]
-fn pull_to_goals<T: Number>(
+fn recalled<T: Number>(batch: &Batch, way: Vec3<T>, speed: Vec3<T>, up: Vec3<T>) -> (T, Vec3<T>) {
+    let (zero, one) = (T::splat(0.0), T::splat(1.0));
+    let far = way.length_squared().sqrt();
+    let share = far / batch.recall_from.load::<T>() - one;
+    let share = T::choose(share.less(one), share, one);
+    let aside = way - up.scale(way.dot(up));
+    let lift = up.scale(aside.length_squared().sqrt() * T::splat(OVER));
+    let whole = (way + lift).length_squared().sqrt();
+    let calm = one + speed.length_squared() * T::splat(1.0 / (CALM * CALM));
+    let pull = batch.recall.load::<T>() * share / (whole * calm);
+    let pulls = T::splat(LEAST_WAY).less(whole);
+    let pull = T::choose(pulls, pull, zero);
+    (T::choose(zero.less(share), pull, zero), lift)
+}
+
+#[inline(always)]
+fn pull_to_goals<T: Number, const RECALLS: bool>(
     batch: &Batch,
     state: &mut BatchState,
     loads: &mut Loads,
@@ -307,6 +339,8 @@ fn pull_to_goals<T: Number>(
         strand.map_or(Pose::IDENTITY, |strand| drive.surroundings.roots.of(strand))
     };
     let poses = batch.strands.map(pose);
+    let gravity = drive.surroundings.gravity;
+    let up = Vec3::<T>::all(gravity.normalize_or_zero() * -1.0);
     let turned = Turned::<T>::by(&poses);
     let has_strand = Mask::new(batch.strands.map(|strand| strand.is_some()));
     let here = T::condition(&has_strand);
@@ -326,7 +360,7 @@ fn pull_to_goals<T: Number>(
         let is_there = x.is_finite().and(y.is_finite()).and(z.is_finite());
         if is_there != Mask::NONE.not() {
             // Where nothing pulls, an invalid goal changes nothing.
-            let pulls = batch.particles[k].goal.gt(Lane::ZERO);
+            let pulls = (batch.particles[k].goal + batch.recall).gt(Lane::ZERO);
             for lane in 0..LANES {
                 if poses[lane].is_finite() && pulls.get(lane) && !is_there.get(lane) {
                     state.set_aside[lane].get_or_insert(Reason::Goal);
@@ -349,6 +383,19 @@ fn pull_to_goals<T: Number>(
         let spring = &mut loads.springs[k];
         let stiffness = batch.particles[k].goal.load::<T>();
         spring.pull(stiffness, before, now, acceleration, GAMMA, drive.dt);
+        if RECALLS {
+            let way = before - state.y[k].load();
+            let speed = state.v[k].load::<T>() - (now - before) * (1.0 / drive.dt);
+            let (stiffness, lift) = recalled(batch, way, speed, up);
+            spring.pull(
+                stiffness,
+                before + lift,
+                now + lift,
+                acceleration,
+                GAMMA,
+                drive.dt,
+            );
+        }
         state.goal[k] = now.store();
     }
 }

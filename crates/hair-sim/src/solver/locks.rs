@@ -9,12 +9,14 @@
 //!
 //! No strand's answer hangs on the order in which others are found: of all planes the deepest holds.
 //!
-//! Its parts, of which each imports those above it alone: `keeps`, how far what is near at rest keeps apart; `meeting`, two links; `ways`, where
-//! strands go; `pairs`, which come near each other.
+//! Its parts, of which each imports those above it alone: `meeting`, two links; `single`, numbers; `boxes`, around what pieces sweep, by fours; `keeps`, how far
+//! what is near at rest keeps apart; `ways`, where strands go; `pairs`, which come near each other.
 
+mod boxes;
 mod keeps;
 mod meeting;
 mod pairs;
+mod single;
 mod ways;
 
 use crate::{
@@ -28,10 +30,11 @@ use super::{
     contact::{Contact, Surface},
     stage::GAMMA,
 };
+use boxes::FOUR;
 use keeps::Keeps;
-use meeting::{Links, Meeting, SLOW, closest};
-use pairs::{Four, Pairs, ones};
-use ways::{PIECE, Ways};
+use meeting::{Links, Meeting, closest};
+use pairs::{Pairs, ones};
+use ways::{PIECE, Ways, is_a_lock};
 
 /// Links that come this near to touching, in m, get a plane.
 const NEAR: f64 = 2e-3;
@@ -49,7 +52,7 @@ const END: f64 = 0.75;
 
 /// Tasks that look for planes in a step.
 const TASKS: usize = 8;
-/// Pairs of strands that are worth a task.
+/// Pairs of fours that are worth a task.
 const WORTH_A_TASK: usize = 64;
 
 /// Links of one strand.
@@ -107,12 +110,14 @@ struct Met {
     sides: [[Link; 2]; LANES],
 }
 
-/// Pieces that may meet: how far they keep from each other, infinite for as far as any, and how much farther than half way through the step they may
-/// meet, besides their radii; in m.
+/// Pieces that may meet: how far they keep from each other, infinite for as far as any; besides their radii, how far that is; by how much going against
+/// each other is slow; and how much farther than half way through the step they may meet, besides their radii; in m.
 #[derive(Clone, Copy, Debug)]
 struct NearPieces {
     pieces: [usize; 2],
     keep: f32,
+    more: f32,
+    slow: f32,
     farther: f32,
 }
 
@@ -129,8 +134,8 @@ struct Found {
 pub(super) struct Locks {
     /// Strand by strand, in the order of batches and lanes.
     pieces: Vec<Piece>,
-    /// The first piece of every strand; one more at the end.
-    strands: Vec<usize>,
+    /// The first piece of every four of a strand.
+    fours: Vec<usize>,
     keeps: Keeps,
     /// The first particle of every batch in the list of all: particle by particle, lane by lane.
     particles: Vec<usize>,
@@ -159,16 +164,21 @@ struct Plane {
 impl Locks {
     /// Of strands at rest in `states`, those with a lock's radius; `ids` are of all strands. None without any.
     pub(super) fn new(batches: &[Batch], states: &[BatchState], ids: &[u32]) -> Option<Self> {
-        let (mut pieces, mut strands, mut particles) = (Vec::new(), Vec::new(), vec![0]);
+        let (mut pieces, mut particles) = (Vec::new(), vec![0]);
+        // Of every four of a strand: its first piece, and which strand.
+        let (mut fours, mut strands) = (Vec::new(), Vec::new());
         for (b, batch) in batches.iter().enumerate() {
             let particle = particles[b];
             particles.push(particle + batch.count() * LANES);
             for lane in 0..LANES {
                 let (count, radius) = (batch.counts[lane], batch.lock_radius[lane]);
-                let Some(strand) = batch.strands[lane].filter(|_| radius > 0.0) else {
+                let Some(strand) = batch.strands[lane].filter(|_| is_a_lock(batch, lane)) else {
                     continue;
                 };
-                strands.push(pieces.len());
+                for first in (0..count.div_ceil(PIECE)).step_by(FOUR) {
+                    fours.push(pieces.len() + first);
+                    strands.push(strand as u32);
+                }
                 pieces.extend((0..count).step_by(PIECE).map(|first| Piece {
                     batch: b,
                     lane,
@@ -183,16 +193,15 @@ impl Locks {
         if pieces.is_empty() {
             return None;
         }
-        strands.push(pieces.len());
         let mut locks = Self {
-            keeps: Keeps::default(),
+            keeps: Keeps::new(&[]),
             dt: 0.0,
-            ways: Ways::new(batches, pieces.len()),
-            pairs: Pairs::new(&strands),
+            ways: Ways::new(batches, &pieces),
+            pairs: Pairs::new(strands),
             found: vec![Found::default(); TASKS],
             holds: vec![None; particles[batches.len()]],
             pieces,
-            strands,
+            fours,
             particles,
         };
         locks.rest(batches, states);
@@ -202,37 +211,33 @@ impl Locks {
     /// Finds which pieces are near each other at rest.
     fn rest(&mut self, batches: &[Batch], states: &[BatchState]) {
         let still = Surroundings::default();
-        self.ways
-            .follow::<Lane>(&self.pieces, batches, states, (&still, 0.0));
         // As far as a share of the distance is less than both radii.
-        let more = 1.0 / OF_REST - 1.0;
-        for (sweep, piece) in self.ways.sweeps.iter_mut().zip(&self.pieces) {
-            sweep.bounds = sweep.bounds.larger_by((piece.radius * more + NEAR) as f32);
-        }
-        self.pairs.find(&self.ways.sweeps, &self.strands);
-        let mut keeps = Keeps::default();
-        for pair in self.pairs.all() {
-            let mut near = Vec::new();
-            let mut look = |own: usize, other: usize| {
-                let [one, two] = [own, other].map(|i| &self.pieces[i]);
-                let radii = one.radius + two.radius;
-                let apart = self.apart_at_rest(one, two);
+        let more = (1.0 / OF_REST - 1.0, NEAR);
+        self.ways
+            .follow::<Lane>(batches, states, (&still, 0.0), more);
+        self.pairs.find(&self.ways.bounds);
+        let mut near = Vec::new();
+        for &pair in self.pairs.all() {
+            let [four, other] = pair.map(|four| four as usize);
+            let fours = &self.ways.fours;
+            let mut of_pair = keeps::Near::new();
+            for bit in ones(fours[other].meet(&fours[four])) {
+                let (i, j) = (bit / FOUR, bit % FOUR);
+                let [one, its] = [self.fours[four] + i, self.fours[other] + j];
+                let [one, its] = [one, its].map(|piece| &self.pieces[piece]);
+                let radii = one.radius + its.radius;
+                let apart = self.apart_at_rest(one, its);
                 if apart < radii + NEAR {
-                    near.push(([own, other], 0.0));
+                    of_pair.push(([i, j], 0.0));
                 } else if apart * OF_REST < radii {
-                    near.push(([own, other], (apart * OF_REST) as f32));
+                    of_pair.push(([i, j], (apart * OF_REST) as f32));
                 }
-            };
-            let sweeps = &self.ways.sweeps;
-            let tell = |own: usize, (_, first): (usize, usize), meet: u32, _: &Four| {
-                ones(meet).for_each(|other| look(own, first + other));
-            };
-            self.pairs
-                .pieces(pair, sweeps, &self.strands, |_, _| !0, tell);
-            keeps.add(*pair, &near, &self.strands);
+            }
+            if !of_pair.is_empty() {
+                near.push((pair, of_pair));
+            }
         }
-        keeps.index();
-        self.keeps = keeps;
+        self.keeps = Keeps::new(&near);
     }
 
     /// How far two pieces are from each other at the start.
@@ -262,8 +267,8 @@ impl Locks {
     ) {
         self.dt = dt;
         self.ways
-            .follow::<T>(&self.pieces, batches, states, (surroundings, dt));
-        self.pairs.find(&self.ways.sweeps, &self.strands);
+            .follow::<T>(batches, states, (surroundings, dt), (0.0, 0.0));
+        self.pairs.find(&self.ways.bounds);
         let mut found = std::mem::take(&mut self.found);
         let tasks = (self.pairs.all().len() / WORTH_A_TASK).clamp(1, TASKS);
         // What one task has found another may find in the next step: with room for that, no list grows once hair has moved.
@@ -307,7 +312,7 @@ impl Locks {
         (piece.id, piece.first + link.number)
     }
 
-    /// Finds the planes of pairs of strands, in as many tasks as there are lists for what is found.
+    /// Finds the planes of pairs of fours, in as many tasks as there are lists for what is found.
     fn find_all<T: Number>(&self, pairs: &[[u32; 2]], found: &mut [Found]) {
         if let [found] = found {
             self.pair_up::<T>(pairs, &mut found.near);
@@ -323,37 +328,45 @@ impl Locks {
         );
     }
 
-    /// Finds the pieces of pairs of strands that may meet.
+    /// Finds the pieces of pairs of fours that may meet.
     fn pair_up<T: Number>(&self, pairs: &[[u32; 2]], near: &mut Vec<NearPieces>) {
+        let fours = &self.ways.fours[..];
         T::run(
             #[inline(always)]
             || {
-                for pair in pairs {
-                    let keeps = self.keeps.between(pair, &self.strands);
-                    self.pairs.pieces(
-                        pair,
-                        &self.ways.sweeps,
-                        &self.strands,
-                        #[inline(always)]
-                        |own, four| keeps.kept(own, four),
-                        #[inline(always)]
-                        |own, (number, first), meet, four| {
-                            let keep = keeps.of(own, number);
-                            let (may_meet, farther) = four.near(&self.ways.sweeps[own], keep);
-                            near.extend(ones(meet & may_meet).map(|i| NearPieces {
-                                pieces: [own, first + i],
-                                keep: keep[i],
-                                farther: farther[i],
-                            }));
-                        },
-                    );
+                for &pair in pairs {
+                    let apart = self.keeps.between(pair);
+                    let [four, other] = pair.map(|four| four as usize);
+                    let (own, its) = (&fours[four], &fours[other]);
+                    let mut meet = its.meet(own) & apart.kept;
+                    while meet != 0 {
+                        let i = meet.trailing_zeros() as usize / FOUR;
+                        let of_piece = meet >> (FOUR * i) & 0b1111;
+                        meet &= !(0b1111 << (FOUR * i));
+                        let keep = apart.keeps[i];
+                        let (may_meet, far) = its.near(own, i, keep);
+                        let keep = keep.to_array();
+                        let [more, slow, farther] = far.map(|of| of.to_array());
+                        for j in ones(of_piece & may_meet) {
+                            near.push(NearPieces {
+                                pieces: [self.fours[four] + i, self.fours[other] + j],
+                                keep: keep[j],
+                                more: more[j],
+                                slow: slow[j],
+                                farther: farther[j],
+                            });
+                        }
+                    }
                 }
             },
         );
     }
 
     /// Finds the links of such pieces that may meet, and the planes of those that do, four by four.
-    fn find_among<T: Number>(&self, Found { near, met, planes }: &mut Found) {
+    fn find_among<T: Number>(&self, found: &mut Found) {
+        let Found {
+            near, met, planes, ..
+        } = found;
         T::run(
             #[inline(always)]
             || {
@@ -361,15 +374,16 @@ impl Locks {
                 for &NearPieces {
                     pieces: [own, other],
                     keep,
+                    more,
+                    slow,
                     farther,
                 } in &*near
                 {
                     let [sweep, its] = [&self.ways.sweeps[own], &self.ways.sweeps[other]];
-                    let radii = self.pieces[own].radius + self.pieces[other].radius;
-                    let keep = f64::from(keep).min(radii);
-                    let (more, slow) = ((keep - radii) as f32, (SLOW * keep) as f32);
                     let found = sweep.near(its, (more, slow, farther));
                     if found != 0 {
+                        let radii = self.pieces[own].radius + self.pieces[other].radius;
+                        let keep = f64::from(keep).min(radii);
                         self.meet_all::<T>([own, other], (found, keep), &mut links, (met, planes));
                     }
                 }
@@ -504,7 +518,7 @@ impl Locks {
 
 #[cfg(test)]
 mod tests {
-    use super::{pairs::FOUR, *};
+    use super::*;
     use crate::{Params, Solver, Strands};
 
     #[test]
@@ -548,12 +562,12 @@ mod tests {
         let (mut all, mut near) = (Found::default(), Near::NONE);
         for (one, two) in (0..locks.pieces.len()).flat_map(|i| (0..i).map(move |j| (j, i))) {
             let [own, other] = [one, two].map(|i| &locks.pieces[i]);
-            let strand = |piece| locks.strands.partition_point(|&first| first <= piece) - 1;
-            let pair = [strand(one), strand(two)];
-            let keeps = (locks.keeps).between(&pair.map(|strand| strand as u32), &locks.strands);
-            let its = two - locks.strands[pair[1]];
-            let keep = f64::from(keeps.of(one, its / FOUR)[its % FOUR]);
-            let keep = keep.min(own.radius + other.radius);
+            let four = |piece| locks.fours.partition_point(|&first| first <= piece) - 1;
+            let fours = [four(one), four(two)];
+            let [i, j] = [one - locks.fours[fours[0]], two - locks.fours[fours[1]]];
+            let apart = locks.keeps.between(fours.map(|four| four as u32));
+            let keep = f64::from(apart.keeps[i][j]).min(own.radius + other.radius);
+            let pair = [own, other].map(|piece| (piece.batch, piece.lane));
             if pair[0] == pair[1] || keep == 0.0 {
                 continue;
             }

@@ -2,7 +2,7 @@
 
 use super::section::{DynamicsSection, FeelChoice, ShapeChoice};
 use effects::{Variation, layer_seed, strand_seed};
-use hair_sim::{Material, Mutual, Natural, Params, Profile};
+use hair_sim::{GRAVITY, Material, Mutual, Natural, Params, Profile};
 use render::Head;
 use std::f64::consts::TAU;
 
@@ -162,6 +162,8 @@ impl Feel {
                     },
                 },
                 friction: f64::from(section.friction),
+                recall: f64::from(section.recall) * GRAVITY,
+                recall_from: f64::from(section.recall_from) * f64::from(head.height_m),
                 ..Params::default()
             },
             hold,

@@ -2,59 +2,71 @@
 
 use glam::Vec4;
 
-use super::pairs::FOUR;
+use super::boxes::FOUR;
 
-/// No pair of strands.
+/// No pair of fours.
 const FREE: [u32; 2] = [u32::MAX; 2];
 
-/// Of pairs of pieces.
-#[derive(Clone, Debug, Default)]
+/// Pieces of four and of four others, by their numbers there, and how far they keep, in m.
+pub(super) type Near = Vec<([usize; 2], f32)>;
+
+/// Of pairs of four pieces of a strand.
+#[derive(Clone, Debug)]
 pub(super) struct Keeps {
-    /// Pairs of strands with pieces that are near, the earlier first, and where those begin in the list of all.
-    pairs: Vec<([u32; 2], usize)>,
-    /// The same as a table, in which a pair lies at the place that its numbers are hashed to, or at the first free one after that.
-    table: Vec<([u32; 2], usize)>,
+    /// Of all that are near, by their numbers. The first is of all others.
+    all: Vec<([u32; 2], Apart)>,
+    /// A table of those, in which a pair lies at the place that its numbers are hashed to, or at the first free one after that.
+    table: Vec<([u32; 2], u32)>,
     /// Bits of a hash that aren't of a place.
     shift: u32,
-    /// Of such a pair, for every piece of the one those of the other, by fours, in m; infinite where they aren't near.
-    keeps: Vec<Vec4>,
-    /// Of every four of these, those that keep apart at all, as bits.
-    kept: Vec<u32>,
+}
+
+/// How far four pieces keep from four others.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Apart {
+    /// For every one of the first those of the others, in m: 0, not at all; infinite, as far as any.
+    pub keeps: [Vec4; FOUR],
+    /// Those that keep apart at all, as bits.
+    pub kept: u32,
+}
+
+impl Apart {
+    /// Of pieces that aren't near each other at rest.
+    const FREE: Self = Self {
+        keeps: [Vec4::INFINITY; FOUR],
+        kept: !0,
+    };
 }
 
 impl Keeps {
-    /// Adds those of a pair of strands: pieces, and how far they keep, in m. `strands` are the first pieces of each.
-    pub(super) fn add(&mut self, pair: [u32; 2], near: &[([usize; 2], f32)], strands: &[usize]) {
-        if near.is_empty() {
-            return;
+    /// Of pairs of fours, each once.
+    pub(super) fn new(near: &[([u32; 2], Near)]) -> Self {
+        let mut all = vec![(FREE, Apart::FREE)];
+        for (pair, near) in near {
+            let mut apart = Apart::FREE;
+            for &([own, its], keep) in near {
+                apart.keeps[own][its] = keep;
+                if keep == 0.0 {
+                    apart.kept &= !(1 << (FOUR * own + its));
+                }
+            }
+            all.push((*pair, apart));
         }
-        let from = self.keeps.len();
-        let [one, other] = pair.map(|strand| strand as usize);
-        let fours = (strands[other + 1] - strands[other]).div_ceil(FOUR);
-        let all = (strands[one + 1] - strands[one]) * fours;
-        self.pairs.push((pair, from));
-        self.keeps.resize(from + all, Vec4::INFINITY);
-        for &([own, its], keep) in near {
-            let its = its - strands[other];
-            self.keeps[from + (own - strands[one]) * fours + its / FOUR][its % FOUR] = keep;
-        }
-        let kept = |keeps: &Vec4| keeps.cmpgt(Vec4::ZERO).bitmask();
-        self.kept.extend(self.keeps[from..].iter().map(kept));
-    }
-
-    /// Makes ready to be asked.
-    pub(super) fn index(&mut self) {
         // Half of it is free at least, so that few places are looked at.
-        let bits = (2 * self.pairs.len()).max(2).next_power_of_two().ilog2();
-        self.shift = u64::BITS - bits;
-        self.table = vec![(FREE, self.keeps.len()); 1 << bits];
-        for i in 0..self.pairs.len() {
-            let place = self.place(self.pairs[i].0);
-            self.table[place] = self.pairs[i];
+        let bits = (2 * all.len()).next_power_of_two().ilog2();
+        let mut keeps = Self {
+            table: vec![(FREE, 0); 1 << bits],
+            shift: u64::BITS - bits,
+            all,
+        };
+        for (i, &(pair, _)) in (0..).zip(&keeps.all).skip(1) {
+            let place = keeps.place(pair);
+            keeps.table[place] = (pair, i);
         }
+        keeps
     }
 
-    /// Where a pair of strands lies in the table, or would.
+    /// Where a pair of fours lies in the table, or would.
     #[inline(always)]
     fn place(&self, pair: [u32; 2]) -> usize {
         let number = u64::from(pair[0]) << 32 | u64::from(pair[1]);
@@ -66,41 +78,10 @@ impl Keeps {
         place
     }
 
-    /// Those of a pair of strands, the earlier first.
+    /// Those of a pair of fours, the earlier first.
     #[inline(always)]
-    pub(super) fn between(&self, pair: &[u32; 2], strands: &[usize]) -> Between<'_> {
-        let from = self.table[self.place(*pair)].1;
-        let [one, other] = pair.map(|strand| strand as usize);
-        Between {
-            keeps: &self.keeps[from..],
-            kept: &self.kept[from..],
-            first: strands[one],
-            fours: (strands[other + 1] - strands[other]).div_ceil(FOUR),
-        }
-    }
-}
-
-/// Those of a pair of strands.
-pub(super) struct Between<'a> {
-    keeps: &'a [Vec4],
-    kept: &'a [u32],
-    first: usize,
-    fours: usize,
-}
-
-impl Between<'_> {
-    /// How far a piece keeps from four of the other strand, of the fours the one of this number, in m: 0, not at all; infinite, as far as any.
-    #[inline(always)]
-    pub(super) fn of(&self, own: usize, four: usize) -> Vec4 {
-        let place = (own - self.first) * self.fours + four;
-        self.keeps.get(place).map_or(Vec4::INFINITY, |&keeps| keeps)
-    }
-
-    /// Which of these it keeps apart from, as bits.
-    #[inline(always)]
-    pub(super) fn kept(&self, own: usize, four: usize) -> u32 {
-        let place = (own - self.first) * self.fours + four;
-        self.kept.get(place).map_or(!0, |&kept| kept)
+    pub(super) fn between(&self, pair: [u32; 2]) -> &Apart {
+        &self.all[self.table[self.place(pair)].1 as usize].1
     }
 }
 
@@ -109,27 +90,23 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pairs_of_strands_are_found_again_and_no_others() {
+    fn pairs_of_fours_are_found_again_and_no_others() {
         for count in [0, 1, 2, 300] {
-            let strands: Vec<usize> = (0..=1000).map(|strand| strand * 6).collect();
-            let mut keeps = Keeps::default();
-            let pair = |i: usize| [i % 37, 100 + i];
+            let pair = |i: u32| [i % 37, 100 + i];
+            let near: Vec<_> = (0..count)
+                .map(|i| (pair(i), vec![([3, 1], i as f32)]))
+                .collect();
+            let keeps = Keeps::new(&near);
             for i in 0..count {
-                let near = pair(i).map(|strand| strand * 6 + 5);
-                let pair = pair(i).map(|strand| strand as u32);
-                keeps.add(pair, &[(near, i as f32)], &strands);
-            }
-            keeps.index();
-            for i in 0..count {
+                let apart = keeps.between(pair(i));
+                assert_eq!(apart.keeps[3], Vec4::INFINITY.with_y(i as f32));
+                assert_eq!(apart.keeps[2], Vec4::INFINITY);
+                let kept = if i > 0 { 0xffff } else { 0xdfff };
+                assert_eq!(apart.kept & 0xffff, kept);
                 let [one, other] = pair(i);
-                let between = keeps.between(&[one as u32, other as u32], &strands);
-                let expected = Vec4::INFINITY.with_y(i as f32);
-                assert_eq!(between.of(one * 6 + 5, 1), expected);
-                assert_eq!(between.of(one * 6 + 4, 1), Vec4::INFINITY);
-                assert_eq!(between.kept(one * 6 + 5, 1), if i > 0 { 15 } else { 13 });
-                let between = keeps.between(&[one as u32 + 40, other as u32], &strands);
-                assert_eq!(between.of((one + 40) * 6 + 5, 1), Vec4::INFINITY);
-                assert_eq!(between.kept((one + 40) * 6 + 5, 1) & 15, 15);
+                let apart = keeps.between([one + 40, other]);
+                assert_eq!(apart.keeps, [Vec4::INFINITY; 4]);
+                assert_eq!(apart.kept & 0xffff, 0xffff);
             }
         }
     }

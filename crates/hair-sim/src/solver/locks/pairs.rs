@@ -1,183 +1,104 @@
-//! Strands that come near each other, by boxes around what they sweep: along one axis in order, then one by one.
+//! Fours of pieces that come near each other, by boxes around what they sweep: along one axis in order, four at once.
 
 use glam::Vec4;
 
-use super::{
-    meeting::SLOW,
-    ways::{Bounds, ROUNDED, Sweep},
-};
+use super::boxes::{Bounds, Boxes, FOUR};
 
-/// Pieces whose boxes are looked at together.
-pub(super) const FOUR: usize = 4;
+/// Places that one moves in the order along the axis, on average, before the order is found from nothing.
+const MOST_MOVES: usize = 16;
 
-/// Four boxes, coordinate by coordinate.
-#[derive(Clone, Copy, Debug)]
-struct Boxes {
-    low: [Vec4; 3],
-    high: [Vec4; 3],
-}
-
-impl Boxes {
-    const NONE: Self = Self {
-        low: [Vec4::INFINITY; 3],
-        high: [Vec4::NEG_INFINITY; 3],
-    };
-
-    fn set(&mut self, i: usize, bounds: &Bounds) {
-        for axis in 0..3 {
-            self.low[axis][i] = bounds.low[axis];
-            self.high[axis][i] = bounds.high[axis];
-        }
-    }
-
-    /// How far they are from a box along the axis where that is most.
-    #[inline(always)]
-    fn gaps(&self, bounds: &Bounds) -> Vec4 {
-        let gap = |axis: usize| {
-            let (low, high) = (self.low[axis], self.high[axis]);
-            (low - bounds.high[axis]).max(Vec4::splat(bounds.low[axis]) - high)
-        };
-        gap(0).max(gap(1)).max(gap(2))
-    }
-}
-
-/// Four pieces of a strand, as [`Sweep`] has them.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Four {
-    bounds: Boxes,
-    mid: Boxes,
-    way: [Vec4; 3],
-    spread: Vec4,
-    own: Vec4,
-    radius: Vec4,
-}
-
-impl Four {
-    fn new(sweeps: &[Sweep]) -> Self {
-        let mut four = Self {
-            bounds: Boxes::NONE,
-            mid: Boxes::NONE,
-            way: [Vec4::ZERO; 3],
-            spread: Vec4::ZERO,
-            own: Vec4::ZERO,
-            radius: Vec4::ZERO,
-        };
-        for (i, sweep) in sweeps.iter().enumerate() {
-            four.bounds.set(i, &sweep.bounds);
-            four.mid.set(i, &sweep.mid);
-            for axis in 0..3 {
-                four.way[axis][i] = sweep.way[axis];
-            }
-            four.spread[i] = sweep.spread;
-            four.own[i] = sweep.own;
-            four.radius[i] = sweep.radius;
-        }
-        four
-    }
-
-    /// Which of them a piece may meet, as bits, where it keeps `keep` metres from each, or as many as both radii; and how much farther they may meet
-    /// than half way through the step, besides their radii.
-    #[inline(always)]
-    pub(super) fn near(&self, sweep: &Sweep, keep: Vec4) -> (u32, Vec4) {
-        let square = |axis: usize| {
-            let against = self.way[axis] - sweep.way[axis];
-            against * against
-        };
-        let against = (square(0) + square(1) + square(2)).sqrt() * ROUNDED;
-        let against = against + self.spread + sweep.spread;
-        let radii = self.radius + sweep.radius;
-        let keep = keep.min(radii);
-        let acts = against.min(self.own + sweep.own);
-        let acts = Vec4::select(acts.cmpgt(keep * SLOW as f32), acts, Vec4::ZERO);
-        let farther = keep - radii + against * 0.5 + acts;
-        let near = self.mid.gaps(&sweep.mid).cmple(farther);
-        (near.bitmask(), farther)
-    }
-}
-
-/// Pairs of strands whose boxes meet in a step.
+/// Pairs of fours of different strands whose boxes meet in a step.
 #[derive(Clone, Debug)]
 pub(super) struct Pairs {
-    /// The boxes of strands, in order along the first axis.
-    sorted: Vec<(u32, Bounds)>,
-    /// The pieces' boxes, strand by strand, and where those of every strand begin; one more at the end.
-    fours: Vec<Four>,
-    first: Vec<usize>,
+    /// In order along the first axis, and where they are on it.
+    order: Vec<(u32, f32)>,
+    /// Their boxes in this order.
+    boxes: Vec<Boxes>,
+    /// The strand of each.
+    strands: Vec<u32>,
     pairs: Vec<[u32; 2]>,
 }
 
 impl Pairs {
-    /// For strands, of which `strands` are the first pieces; one more at the end.
-    pub(super) fn new(strands: &[usize]) -> Self {
-        let mut first = vec![0];
-        for ends in strands.windows(2) {
-            first.push(first[first.len() - 1] + (ends[1] - ends[0]).div_ceil(FOUR));
-        }
+    /// For fours of these strands.
+    pub(super) fn new(strands: Vec<u32>) -> Self {
+        let count = strands.len();
         Self {
-            sorted: Vec::with_capacity(strands.len()),
-            fours: Vec::with_capacity(first[first.len() - 1]),
-            first,
+            order: (0..count as u32).map(|four| (four, 0.0)).collect(),
+            boxes: vec![Boxes::NONE; count.div_ceil(FOUR)],
+            strands,
             pairs: Vec::new(),
         }
     }
 
     /// Finds them.
-    pub(super) fn find(&mut self, sweeps: &[Sweep], strands: &[usize]) {
-        self.fours.clear();
-        self.sorted.clear();
-        for (strand, ends) in (0..).zip(strands.windows(2)) {
-            let pieces = &sweeps[ends[0]..ends[1]];
-            self.fours.extend(pieces.chunks(FOUR).map(Four::new));
-            let bounds = pieces.iter().map(|sweep| sweep.bounds);
-            let whole = bounds.fold(Bounds::NONE, |all, bounds| all.and(&bounds));
-            self.sorted.push((strand, whole));
+    pub(super) fn find(&mut self, fours: &[Bounds]) {
+        self.sort(fours);
+        for (place, &(four, _)) in self.order.iter().enumerate() {
+            let bounds = &fours[four as usize];
+            let boxes = &mut self.boxes[place / FOUR];
+            for axis in 0..3 {
+                boxes.low[axis][place % FOUR] = bounds.low[axis];
+                boxes.high[axis][place % FOUR] = bounds.high[axis];
+            }
         }
-        (self.sorted).sort_unstable_by(|one, other| one.1.low[0].total_cmp(&other.1.low[0]));
         self.pairs.clear();
-        for (place, (one, own)) in self.sorted.iter().enumerate() {
-            for (other, its) in &self.sorted[place + 1..] {
-                if its.low[0] > own.high[0] {
+        for (place, &(one, _)) in self.order.iter().enumerate() {
+            let Bounds { low, high } = &fours[one as usize];
+            let strand = self.strands[one as usize];
+            let (low, high) = (
+                [low.y, low.z].map(Vec4::splat),
+                [high.x, high.y, high.z].map(Vec4::splat),
+            );
+            // Those behind it alone.
+            let mut behind = 0b1110 << (place % FOUR) & 0b1111;
+            for (number, boxes) in self.boxes.iter().enumerate().skip(place / FOUR) {
+                let is_before = boxes.low[0].cmple(high[0]);
+                if !is_before.any() {
                     break;
                 }
-                if own.meets(its) {
-                    self.pairs.push([*one.min(other), *one.max(other)]);
+                let meet = is_before
+                    & boxes.low[1].cmple(high[1])
+                    & boxes.low[2].cmple(high[2])
+                    & boxes.high[1].cmpge(low[0])
+                    & boxes.high[2].cmpge(low[1]);
+                for other in ones(meet.bitmask() & behind) {
+                    let (other, _) = self.order[number * FOUR + other];
+                    if self.strands[other as usize] != strand {
+                        self.pairs.push([one.min(other), one.max(other)]);
+                    }
                 }
+                behind = 0b1111;
             }
         }
     }
 
-    /// The pairs, each once, the earlier strand first.
+    /// Brings them in order, which is nearly that of the step before.
+    fn sort(&mut self, fours: &[Bounds]) {
+        for (four, at) in &mut self.order {
+            *at = fours[*four as usize].low.x;
+        }
+        let mut moves = MOST_MOVES * self.order.len();
+        for place in 1..self.order.len() {
+            let own = self.order[place];
+            let mut to = place;
+            while to > 0 && self.order[to - 1].1 > own.1 {
+                self.order[to] = self.order[to - 1];
+                to -= 1;
+            }
+            self.order[to] = own;
+            moves = moves.saturating_sub(place - to);
+            if moves == 0 {
+                self.order
+                    .sort_unstable_by(|one, other| one.1.total_cmp(&other.1));
+                return;
+            }
+        }
+    }
+
+    /// The pairs, each once, the earlier first.
     pub(super) fn all(&self) -> &[[u32; 2]] {
         &self.pairs
-    }
-
-    /// Tells of all pieces of a pair of strands whose boxes meet, in order: of the first's piece, and four of the other's by their number, where
-    /// they begin, which of them it is about, as bits, and what else is known of them. `strands` are the first pieces of each; `among` says which of
-    /// four of the other's it may be about.
-    #[inline(always)]
-    pub(super) fn pieces(
-        &self,
-        pair: &[u32; 2],
-        sweeps: &[Sweep],
-        strands: &[usize],
-        among: impl Fn(usize, usize) -> u32,
-        mut tell: impl FnMut(usize, (usize, usize), u32, &Four),
-    ) {
-        let [one, other] = pair.map(|strand| strand as usize);
-        let fours = &self.fours[self.first[other]..self.first[other + 1]];
-        for own in strands[one]..strands[one + 1] {
-            for (number, four) in fours.iter().enumerate() {
-                let among = among(own, number);
-                if among == 0 {
-                    continue;
-                }
-                let gaps = four.bounds.gaps(&sweeps[own].bounds);
-                let meet = gaps.cmple(Vec4::ZERO).bitmask() & among;
-                if meet != 0 {
-                    tell(own, (number, strands[other] + number * FOUR), meet, four);
-                }
-            }
-        }
     }
 }
 
