@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use std::sync::Mutex;
 
 impl Rasterizer {
-    /// Draws the samples of a picture, each with the features that the drawing declares: up to four of every pixel at a time, which
+    /// Draws the samples of a picture, each with the features that the drawing declares: up to eight of every pixel at a time, which
     /// `take` is given, from the first to the last.
     ///
     /// They are those that [`Self::draw`] takes the means of. `planes` is working memory.
