@@ -278,9 +278,13 @@ fn lines_are_the_same_whether_or_not_a_pass_asks_for_colours() {
     ] {
         let features = passes.iter().chain([&none]).map(Edges::features);
         let features = features.fold(Features::NONE, Features::union);
-        for background in [None, Some([0.5, 0.25, 2.0])] {
+        for (heads, background) in [(1, None), (1, Some([0.5, 0.25, 2.0])), (2, None)] {
             let (mut drawing, mut other) =
                 (drawing(&list, features), drawing_of(3, &list, features));
+            // Hair of several heads has strands and levels of one number.
+            for (run, i) in drawing.features.runs.iter_mut().zip(0..) {
+                (run.object, run.strand, run.level) = (i % heads, i / heads, i / heads % 2);
+            }
             drawing.background = background;
             other.background = background;
             let plain = draw(&drawing, 4, 1);
@@ -291,7 +295,8 @@ fn lines_are_the_same_whether_or_not_a_pass_asks_for_colours() {
                 drawing.passes = passes.clone();
                 let mut rasterizer = Rasterizer::new(samples, Some(2)).unwrap();
                 let found = rasterizer.draw(&drawing).unwrap();
-                let what = format!("{samples} samples on {background:?}: {passes:?}");
+                let what =
+                    format!("{samples} samples on {background:?}, {heads} heads: {passes:?}");
                 assert!(found == expected, "{what}");
                 // In the memory of a picture of less.
                 other.passes = passes.clone();

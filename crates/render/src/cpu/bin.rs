@@ -49,17 +49,11 @@ impl Bounds {
     /// The pixels of a picture of the given size that the box from `min` to `max` touches, if any.
     #[inline(always)] // into kernels that are compiled for several instruction sets
     pub(super) fn of_box(min: Vec2, max: Vec2, size: [u32; 2]) -> Option<Self> {
-        Self::of_ends(Vec4::new(min.x, min.y, -max.x, -max.y), size)
-    }
-
-    /// The same by a box's ends to the left and above, and those to the right and below with the other sign: the least ones of what is in it.
-    #[inline(always)] // into kernels that are compiled for several instruction sets
-    pub(super) fn of_ends(ends: Vec4, size: [u32; 2]) -> Option<Self> {
         let [width, height] = size.map(|side| side as f32);
         // All four ends at once, outwards: from the greater ones with the other sign. Single precision is finer than the margin wherever a
         // picture is.
         const SIGNS: Vec4 = Vec4::new(1.0, 1.0, -1.0, -1.0);
-        let ends = (ends - MARGIN - 0.5) * SIGNS;
+        let ends = (Vec4::new(min.x, min.y, -max.x, -max.y) - MARGIN - 0.5) * SIGNS;
         let ends = ends.max(Vec4::ZERO);
         let ends = ends.min(Vec4::new(width, height, width, height));
         let [left, top, right, bottom] = ends.to_array().map(|end| nearest(end) as u16);

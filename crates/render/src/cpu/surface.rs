@@ -10,7 +10,7 @@ use super::tile::{
     greater, least, lesser, overwrite, select,
 };
 use crate::drawing::{Coverage, Drawing, Surface, SurfaceVertex};
-use glam::{DVec2, Vec2, Vec4};
+use glam::{DVec2, Vec2};
 use rayon::prelude::*;
 use std::hint::black_box;
 use std::ops::Range;
@@ -163,12 +163,8 @@ const SOME: usize = 1024;
 #[inline(always)]
 fn bounds_of([a, b, c]: [&SurfaceVertex; 3], size: [u32; 2], stacks: &[Stack]) -> Bounds {
     let (a, b, c) = (a.position, b.position, c.position);
-    let a = Vec4::new(a.x, a.y, -a.x, -a.y);
-    let b = Vec4::new(b.x, b.y, -b.x, -b.y);
-    let c = Vec4::new(c.x, c.y, -c.x, -c.y);
-    let ends = a.min(b).min(c);
-    let (low, high) = (Vec2::new(ends.x, ends.y), -Vec2::new(ends.z, ends.w));
-    match Bounds::of_ends(ends, size) {
+    let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+    match Bounds::of_box(low, high, size) {
         Some(bounds) if may_hold_sample(low, high, stacks) => bounds,
         _ => Bounds::default(),
     }
