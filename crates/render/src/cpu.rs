@@ -31,6 +31,7 @@ mod seen;
 mod segment;
 mod set_up;
 mod shown;
+mod spots;
 mod square;
 mod stamp;
 mod strand;

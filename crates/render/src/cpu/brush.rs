@@ -1,62 +1,64 @@
 //! What brushes leave of the strokes of a strand in a tile: the samples that they keep bare are taken away before anything is drawn.
 
 use super::context::TileContext;
-use super::reached::Reached;
 use super::segment::Stroke;
-use super::stroke::{Placed, Places};
-use super::tile::{
-    Cell, LANES, LaneMask, Lanes, Mask, OneByOne, ROWS, SAMPLES, Stack, bits, cells, columns,
-    lanes, select,
-};
+use super::spots::Spots;
+use super::stroke::Placed;
+use super::tile::{LANES, LaneMask, Lanes, Mask, OneByOne, STACK, Stack, bits, select};
 use crate::brushwork::BrushedLayer;
 use crate::drawing::scatter;
 use effects::{BrushPlaces, StrandBrush};
 
-/// Samples of a stroke and where they lie beside it. Most cells have few of a thin stroke: those of several are looked up together.
-pub(super) struct Beside {
-    /// Each one's cell and lane.
-    samples: Vec<(Cell, usize)>,
-    /// Numbers of each, in the order of [`BesideCell::numbers`].
-    numbers: Box<[[f32; SAMPLES]; NUMBERS]>,
+/// Samples of a tile at which a stroke's brush is looked up, in the order of rows and columns.
+#[derive(Default)]
+pub(super) struct LookUps {
+    /// The word of a mask that each is in, and its column.
+    words: Vec<u8>,
+    columns: Vec<u8>,
+}
+
+impl LookUps {
+    /// Finds those of some wanted samples in place of what was there: of so many that are looked up together the first one that the stroke reaches,
+    /// where any of them is wanted.
+    #[inline(always)]
+    fn find(&mut self, wanted: &Mask, reached: &Mask, together: usize) {
+        self.words.clear();
+        self.columns.clear();
+        for group in (0..wanted.len()).step_by(together) {
+            let words = group..group + together;
+            let mut left = 0;
+            for &word in &wanted[words.clone()] {
+                left |= word;
+            }
+            for word in words {
+                let first = left & reached[word];
+                left &= !first;
+                for column in OneByOne::of_bits(first) {
+                    self.words.push(word as u8);
+                    self.columns.push(column as u8);
+                }
+            }
+        }
+    }
+
+    /// As many of them as a cell has lanes, from that one on; behind the last one that one again.
+    #[inline(always)]
+    fn spots_from(&self, first: usize) -> Spots {
+        let (mut word, mut column) = ([0; LANES], [0; LANES]);
+        let count = (self.words.len() - first).min(LANES);
+        for k in 0..LANES {
+            let place = first + k.min(count - 1);
+            word[k] = u32::from(self.words[place]);
+            column[k] = u32::from(self.columns[place]);
+        }
+        Spots::new(word, column, count)
+    }
 }
 
 /// How many numbers say where a sample lies.
 const NUMBERS: usize = 6;
 
-impl Beside {
-    pub(super) fn new() -> Self {
-        Self {
-            samples: Vec::with_capacity(SAMPLES),
-            numbers: Box::new([[0.0; SAMPLES]; NUMBERS]),
-        }
-    }
-
-    /// Adds samples of a cell.
-    #[inline(always)]
-    fn add(&mut self, cell: Cell, samples: &LaneMask, places: &BesideCell) {
-        let numbers = places.numbers();
-        for lane in OneByOne::of_bits(bits(samples)) {
-            let place = self.samples.len() % SAMPLES;
-            for (list, lanes) in self.numbers.iter_mut().zip(numbers) {
-                list[place] = lanes[lane];
-            }
-            self.samples.push((cell, lane));
-        }
-    }
-
-    /// As many of them as a cell has, from that one on; of those behind the last anything.
-    #[inline(always)]
-    fn cell_from(&self, first: usize) -> BesideCell {
-        let mut numbers = [[0.0; LANES]; NUMBERS];
-        for (lanes, list) in numbers.iter_mut().zip(self.numbers.iter()) {
-            let (cells, _) = list.as_chunks::<LANES>();
-            *lanes = cells[first / LANES];
-        }
-        BesideCell::of_numbers(numbers)
-    }
-}
-
-/// Where samples of a cell lie beside a stroke.
+/// Where samples lie beside a stroke.
 struct BesideCell {
     places: BrushPlaces<LANES>,
     /// Radius of the clump there, where it matters.
@@ -64,18 +66,6 @@ struct BesideCell {
 }
 
 impl BesideCell {
-    #[inline(always)]
-    fn numbers(&self) -> [&Lanes; NUMBERS] {
-        let BrushPlaces {
-            s,
-            whole,
-            v,
-            pixels,
-            radius_px,
-        } = &self.places;
-        [s, whole, v, pixels, radius_px, &self.clump_px]
-    }
-
     #[inline(always)]
     fn of_numbers([s, whole, v, pixels, radius_px, clump_px]: [Lanes; NUMBERS]) -> Self {
         Self {
@@ -127,40 +117,24 @@ impl<'a> StrokeBrush<'a> {
     pub(super) fn thin(
         &self,
         placed: &[Placed],
-        (segments, beside): (&mut Reached, &mut Beside),
+        look_ups: &mut LookUps,
         covered: &Mask,
         samples: &mut Mask,
     ) {
         let together = self.scene.stack.together();
-        beside.samples.clear();
-        for row in 0..ROWS {
-            let wanted = columns(samples, row);
-            if wanted == 0 {
-                continue;
-            }
-            segments.find(placed, row, wanted);
-            for cell in cells(row, wanted) {
-                let asked = whole_groups(bits(&cell.lanes(samples)), together);
-                let first = first_of_groups(bits(&cell.lanes(covered)), together);
-                let mut places = Places::<false>::new();
-                let lanes = lanes(asked & first);
-                segments.find_nearest(placed, cell, &lanes, &mut places);
-                let across = places.across();
-                beside.add(
-                    cell,
-                    &lanes,
-                    &self.places(&lanes, &places.index, &places.way, &across),
-                );
-            }
-        }
-        for first in (0..beside.samples.len()).step_by(LANES) {
-            let coverage = self.coverage(&beside.cell_from(first));
-            for (k, &(cell, lane)) in beside.samples[first..].iter().take(LANES).enumerate() {
-                let group = lane / together * together;
-                for lane in group..group + together {
-                    if coverage[k] <= self.parts[lane] {
-                        cell.take_lane_from(samples, lane);
-                    }
+        look_ups.find(samples, covered, together);
+        let mut nearest = 0;
+        for first in (0..look_ups.words.len()).step_by(LANES) {
+            let spots = look_ups.spots_from(first);
+            let places = spots.places(placed, &mut nearest);
+            let across = places.across();
+            let places = self.places(&[u32::MAX; LANES], &places.index, &places.way, &across);
+            let coverage = self.coverage(&places);
+            for k in 0..spots.count {
+                let word = spots.words[k] as usize / together * together;
+                for word in word..word + together {
+                    let is_bare = coverage[k] <= self.parts[word % STACK];
+                    samples[word] &= !(u32::from(is_bare) << spots.columns[k]);
                 }
             }
         }

@@ -5,14 +5,16 @@
 //! stroke's nearest disc in the tile would show, its segments give depth and roundness, and what of that shows in the picture
 //! goes there; only that gets a colour.
 
-use super::brush::{Beside, StrokeBrush};
+use super::brush::{LookUps, StrokeBrush};
 use super::context::{Part, TileContext};
 use super::offer::{Offer, Roundness, paint, shade, tell, unasked};
 use super::outlines::{Outlined, Outlines, are_deep};
 use super::reached::Reached;
 use super::shown::Shown;
 use super::stroke::Placed;
-use super::tile::{Mask, NO_SAMPLES, ROWS, Target, add, both, is_empty, without};
+use super::tile::{
+    Mask, NO_SAMPLES, ROWS, Target, add, both, cells, columns, greater, is_empty, without,
+};
 use crate::drawing::Order;
 use std::ops::Range;
 
@@ -25,8 +27,8 @@ pub(super) struct StrandMasks {
     /// Where brushes left bare what strokes that are clipped to the clump reach; of drawings without brushes anything.
     bare: Mask,
     row: Reached,
-    /// Of strokes with brushes: their samples.
-    beside: Beside,
+    /// Of a stroke with a brush.
+    look_ups: LookUps,
     /// Those that are left for [`Self::draw_outlines`].
     outlines: Outlines,
 }
@@ -48,7 +50,7 @@ impl StrandMasks {
             strokes: Vec::new(),
             bare: NO_SAMPLES,
             row: Reached::default(),
-            beside: Beside::new(),
+            look_ups: LookUps::default(),
             outlines: Outlines::default(),
         }
     }
@@ -69,6 +71,9 @@ impl StrandMasks {
             return;
         }
         self.place(scene, strand, part.segments.start, &open);
+        if !scene.drawing.brushwork.is_empty() {
+            self.thin(scene, target);
+        }
         match scene.drawing.order {
             Order::Rounded | Order::StrandFirst => {
                 let id = scene.segments[strand[0] as usize].strand;
@@ -108,9 +113,6 @@ impl StrandMasks {
         }
         if let Some(clump) = self.strokes.first().filter(|stroke| stroke.number == 0) {
             self.place_base(clump.segments.clone());
-        }
-        if !scene.drawing.brushwork.is_empty() {
-            self.thin(scene);
         }
     }
 
@@ -156,15 +158,16 @@ impl StrandMasks {
     /// Takes from the strokes what their brushes leave bare: what is drawn of a strand is as if they didn't cover it. Where the strand is drawn as
     /// one, samples that a higher stroke takes are not looked at.
     #[inline(never)] // drawings without brushes have none of it in their loops
-    fn thin(&mut self, scene: &TileContext) {
+    fn thin(&mut self, scene: &TileContext, target: &Target) {
         scene.instructions.run(
             #[inline(always)]
-            || self.thin_all(scene),
+            || self.thin_all(scene, target),
         );
     }
 
     #[inline(always)]
-    fn thin_all(&mut self, scene: &TileContext) {
+    fn thin_all(&mut self, scene: &TileContext, target: &Target) {
+        let seen = self.may_show(target);
         self.bare = NO_SAMPLES;
         let is_one = scene.drawing.order != Order::Shifted;
         let clump = match self.strokes.first() {
@@ -174,6 +177,7 @@ impl StrandMasks {
         let mut taken = NO_SAMPLES;
         for covered in self.strokes.iter_mut().rev() {
             let reached = covered.samples;
+            covered.samples = both(&covered.samples, &seen);
             let Some(place) = covered.number.checked_sub(1) else {
                 continue;
             };
@@ -189,8 +193,7 @@ impl StrandMasks {
                 let brush = StrokeBrush::new(scene, layer, stroke, placed[0].index);
                 let wanted = without(&covered.samples, &taken);
                 let mut left = wanted;
-                let memory = (&mut self.row, &mut self.beside);
-                brush.thin(placed, memory, &reached, &mut left);
+                brush.thin(placed, &mut self.look_ups, &reached, &mut left);
                 let bare = without(&wanted, &left);
                 covered.samples = without(&covered.samples, &bare);
                 if stroke.rank >= 0 {
@@ -201,6 +204,34 @@ impl StrandMasks {
                 add(&mut taken, &covered.samples);
             }
         }
+    }
+
+    /// The samples of its strokes in which not all of the strand that lies in their row is hidden.
+    #[inline(always)]
+    fn may_show(&self, target: &Target) -> Mask {
+        let mut all = NO_SAMPLES;
+        for stroke in &self.strokes {
+            add(&mut all, &stroke.samples);
+        }
+        let mut seen = NO_SAMPLES;
+        for row in 0..ROWS {
+            let reached = columns(&all, row);
+            if reached == 0 {
+                continue;
+            }
+            let (mut nearest, mut biased) = (f32::NEG_INFINITY, f32::NEG_INFINITY);
+            for placed in &self.placed {
+                if columns(&placed.covered, row) != 0 {
+                    nearest = greater(placed.shape.inv_depth.greatest(), nearest);
+                    biased = greater(placed.shape.inv_depth_biased.greatest(), biased);
+                }
+            }
+            for cell in cells(row, reached) {
+                let shows = target.may_show(cell, &cell.lanes(&all), nearest, biased);
+                cell.add_to(&mut seen, &shows);
+            }
+        }
+        seen
     }
 
     /// Adds the strokes that are the clump and its sides, whose segments these are.

@@ -19,8 +19,8 @@ pub(super) struct Placed {
     /// The samples that it covers.
     pub(super) covered: Mask,
     /// The segment's frame.
-    x: Samples,
-    y: Samples,
+    pub(super) x: Samples,
+    pub(super) y: Samples,
 }
 
 impl Placed {
@@ -156,11 +156,11 @@ impl Placed {
     }
 }
 
-/// A cell's samples in a segment's frame, and those that it covers.
+/// Samples in a segment's frame, and those that it covers.
 pub(super) struct InFrame {
-    covered: LaneMask,
-    x: Lanes,
-    y: Lanes,
+    pub(super) covered: LaneMask,
+    pub(super) x: Lanes,
+    pub(super) y: Lanes,
 }
 
 /// How near a stroke is at the samples of a cell, 1/m; [`NOTHING`] where no segment of it covers them.

@@ -852,6 +852,17 @@ impl Samples {
         self.and(step)
     }
 
+    /// At some lanes of cells that are so far from the tile's first one.
+    #[inline(always)]
+    pub(super) fn at(&self, lanes: &[u32; LANES], across: &Lanes, down: &Lanes) -> Lanes {
+        let mut own = [0.0; LANES];
+        for k in 0..LANES {
+            let step = across[k] * self.per_column + down[k] * self.per_row;
+            own[k] = self.first[lanes[k] as usize % LANES] + step;
+        }
+        own
+    }
+
     /// At those of a cell where it is so much more than in the tile's first one.
     #[inline(always)]
     pub(super) fn and(&self, step: f32) -> Lanes {

@@ -1,0 +1,85 @@
+//! Samples that lie anywhere in a tile, as many at a time as a cell has: of most cells few are asked for where a stroke lies.
+
+use super::stroke::{InFrame, Nearest, Placed, Places, Ratios};
+use super::tile::{CELL_WIDTH, LANES, LaneMask, Lanes, Mask, STACK, Samples, any, select};
+
+/// Some samples of a tile.
+pub(super) struct Spots {
+    /// The word of a mask that each is in, and its column.
+    pub(super) words: [u32; LANES],
+    pub(super) columns: [u32; LANES],
+    /// How many there are: those behind are the last one again.
+    pub(super) count: usize,
+    /// Each one's lane in its cell, and how far that is from the tile's first one, in columns and in rows of stacks.
+    lanes: [u32; LANES],
+    across: Lanes,
+    down: Lanes,
+}
+
+impl Spots {
+    #[inline(always)]
+    pub(super) fn new(words: [u32; LANES], columns: [u32; LANES], count: usize) -> Self {
+        let mut lanes = [0; LANES];
+        let (mut across, mut down) = ([0.0; LANES], [0.0; LANES]);
+        for k in 0..LANES {
+            let in_cell = columns[k] % CELL_WIDTH as u32;
+            lanes[k] = words[k] % STACK as u32 + in_cell * STACK as u32;
+            across[k] = (columns[k] - in_cell) as i32 as f32;
+            down[k] = (words[k] / STACK as u32) as i32 as f32;
+        }
+        Self {
+            words,
+            columns,
+            count,
+            lanes,
+            across,
+            down,
+        }
+    }
+
+    /// Those of a mask.
+    #[inline(always)]
+    fn of_mask(&self, mask: &Mask) -> LaneMask {
+        let mut lanes = [0; LANES];
+        for k in 0..LANES {
+            let word = mask[self.words[k] as usize % mask.len()];
+            lanes[k] = select(word >> self.columns[k] & 1 != 0, u32::MAX, 0);
+        }
+        lanes
+    }
+
+    /// The numbers that they have.
+    #[inline(always)]
+    fn of(&self, samples: &Samples) -> Lanes {
+        samples.at(&self.lanes, &self.across, &self.down)
+    }
+
+    /// The axis points of a stroke of such segments, which cover them. `to_axis` is the segment that was near the axis in the last ones.
+    #[inline(always)]
+    pub(super) fn places(&self, placed: &[Placed], to_axis: &mut usize) -> Places<false> {
+        let (mut places, mut known) = (Places::new(), Ratios::new());
+        let first = &placed[*to_axis];
+        known.offer(first, &self.in_frame(first, self.of_mask(&first.covered)));
+        for (place, segment) in placed.iter().enumerate() {
+            let covered = self.of_mask(&segment.covered);
+            if !any(&covered) {
+                continue;
+            }
+            let at = self.in_frame(segment, covered);
+            if places.may_gain(&known, segment, &at, &[u32::MAX; LANES]) {
+                places.offer(segment, &at);
+                *to_axis = place;
+            }
+        }
+        places
+    }
+
+    #[inline(always)]
+    fn in_frame(&self, segment: &Placed, covered: LaneMask) -> InFrame {
+        InFrame {
+            covered,
+            x: self.of(&segment.x),
+            y: self.of(&segment.y),
+        }
+    }
+}
