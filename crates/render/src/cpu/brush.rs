@@ -55,30 +55,11 @@ impl LookUps {
     }
 }
 
-/// How many numbers say where a sample lies.
-const NUMBERS: usize = 6;
-
 /// Where samples lie beside a stroke.
-struct BesideCell {
+struct Beside {
     places: BrushPlaces<LANES>,
     /// Radius of the clump there, where it matters.
     clump_px: Lanes,
-}
-
-impl BesideCell {
-    #[inline(always)]
-    fn of_numbers([s, whole, v, pixels, radius_px, clump_px]: [Lanes; NUMBERS]) -> Self {
-        Self {
-            places: BrushPlaces {
-                s,
-                whole,
-                v,
-                pixels,
-                radius_px,
-            },
-            clump_px,
-        }
-    }
 }
 
 /// A stroke's brush.
@@ -164,7 +145,7 @@ impl<'a> StrokeBrush<'a> {
     }
 
     #[inline(always)]
-    fn coverage(&self, beside: &BesideCell) -> Lanes {
+    fn coverage(&self, beside: &Beside) -> Lanes {
         match self.is_outline {
             true => self
                 .brush
@@ -181,8 +162,11 @@ impl<'a> StrokeBrush<'a> {
         segments: &[u32; LANES],
         way: &Lanes,
         across: &Lanes,
-    ) -> BesideCell {
-        let mut numbers = [[0.0; LANES]; NUMBERS];
+    ) -> Beside {
+        let mut beside = Beside {
+            places: BrushPlaces::ZERO,
+            clump_px: [0.0; LANES],
+        };
         let mut left = *samples;
         while let Some(lane) = OneByOne::of_bits(bits(&left)).next() {
             let segment = segments[lane];
@@ -191,37 +175,46 @@ impl<'a> StrokeBrush<'a> {
                 own[k] &= select(segments[k] == segment, u32::MAX, 0);
                 left[k] &= !own[k];
             }
-            let [from, to] = self.ends(segment);
-            for i in 0..NUMBERS {
-                let mut lanes = numbers[i];
-                for k in 0..LANES {
-                    let between = from[i] + way[k] * (to[i] - from[i]);
-                    lanes[k] = select(own[k] != 0, between, lanes[k]);
-                }
-                numbers[i] = lanes;
+            let segment = &self.scene.segments[segment as usize];
+            let radii_px = segment.radii(self.scene.drawing, self.scene.strokes);
+            let [from, to] = segment.joints();
+            let joints = &self.scene.drawing.brushwork.joints;
+            let [along, along_next] = [&joints[from], &joints[to]];
+            let places = &mut beside.places;
+            mix(&mut places.s, &own, way, [along.s, along_next.s]);
+            mix(
+                &mut places.whole,
+                &own,
+                way,
+                [along.whole, along_next.whole],
+            );
+            mix(
+                &mut places.pixels,
+                &own,
+                way,
+                [along.pixels, along_next.pixels],
+            );
+            mix(&mut places.radius_px, &own, way, radii_px);
+            if self.is_outline {
+                let clump = &self.scene.drawing.clump;
+                let clump_px = [clump[from].radius, clump[to].radius];
+                mix(&mut beside.clump_px, &own, way, clump_px);
             }
         }
-        let mut beside = BesideCell::of_numbers(numbers);
         beside.places.v = *across;
         beside
     }
+}
 
-    /// What the joints of a segment have of [`BesideCell::numbers`]; nothing of the place across.
-    #[inline(always)]
-    fn ends(&self, segment: u32) -> [[f32; NUMBERS]; 2] {
-        let drawing = self.scene.drawing;
-        let segment = &self.scene.segments[segment as usize];
-        let (joints, radii) = (segment.joints(), segment.radii(drawing, self.scene.strokes));
-        let end = |i: usize| {
-            let along = &drawing.brushwork.joints[joints[i]];
-            let clump_px = match self.is_outline {
-                true => drawing.clump[joints[i]].radius,
-                false => 0.0,
-            };
-            [along.s, along.whole, 0.0, along.pixels, radii[i], clump_px]
-        };
-        [end(0), end(1)]
+/// What some samples have that lie so far on the way from one end of a segment to the other.
+#[inline(always)]
+fn mix(lanes: &mut Lanes, own: &LaneMask, way: &Lanes, [from, to]: [f32; 2]) {
+    let rise = to - from;
+    let mut mixed = *lanes;
+    for k in 0..LANES {
+        mixed[k] = select(own[k] != 0, from + way[k] * rise, lanes[k]);
     }
+    *lanes = mixed;
 }
 
 /// The first lanes of groups of so many, 1, 2 or 4: those of a pixel that are looked up together.
