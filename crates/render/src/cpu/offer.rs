@@ -19,7 +19,7 @@ pub(super) enum Roundness {
 }
 
 /// Nobody asks where samples that show lie.
-pub(super) fn unasked(_: &mut Target, _: usize, _: &Places<true>, _: &LaneMask) {}
+pub(super) fn unasked(_: &mut Target, _: usize, _: &Places<false>, _: &LaneMask) {}
 
 /// A stroke that is held against what the samples show.
 pub(super) struct Offer<'a> {
@@ -33,15 +33,15 @@ pub(super) struct Offer<'a> {
 
 impl Offer<'_> {
     /// Puts the samples, which the segments cover, into the picture; those that show are added to `shown`. Where it `TELLS`, gives the axis
-    /// points of these.
+    /// points of these, where they are `COLORED` with the colours there.
     #[inline(always)]
-    pub(super) fn make<const TELLS: bool>(
+    pub(super) fn make<const TELLS: bool, const COLORED: bool>(
         &self,
         samples: &Mask,
         segments: &mut Reached,
         target: &mut Target,
         shown: &mut Mask,
-        mut give: impl FnMut(&mut Target, usize, &Places<true>, &LaneMask),
+        mut give: impl FnMut(&mut Target, usize, &Places<COLORED>, &LaneMask),
     ) {
         let (mut nearest, mut biased) = (f32::NEG_INFINITY, f32::NEG_INFINITY);
         for placed in self.placed {

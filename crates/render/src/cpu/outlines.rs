@@ -111,7 +111,7 @@ impl Outlines {
                 roundness: of_outline,
                 priority,
             };
-            offer.make::<false>(&samples, row, target, &mut shown, unasked);
+            offer.make::<false, false>(&samples, row, target, &mut shown, unasked);
             target.show_stroke(&shown, true);
             if !TELLS {
                 shade(placed, &shown, row, target);
@@ -125,6 +125,7 @@ impl Outlines {
                 |cell, places, lanes| {
                     paint(target, cell, &places.color, lanes);
                     told.put_stroke(cell, places, lanes);
+                    told.put_outside(cell, places, lanes);
                 },
             );
         }

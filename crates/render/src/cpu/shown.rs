@@ -50,7 +50,7 @@ impl Shown {
         }
     }
 
-    /// Some samples of a cell show a stroke; they are taken to lie outside of its clump.
+    /// Some samples of a cell show a stroke.
     #[inline(always)]
     pub(super) fn put_stroke<const COLORED: bool>(
         &mut self,
@@ -59,10 +59,22 @@ impl Shown {
         samples: &LaneMask,
     ) {
         if let Some(planes) = &mut self.0 {
-            let across = places.across();
             put(&mut planes.what[cell], &places.index, samples);
             overwrite(&mut planes.way[cell], &places.way, samples);
-            overwrite(&mut planes.v[cell], &across, samples);
+            overwrite(&mut planes.v[cell], &places.across(), samples);
+        }
+    }
+
+    /// Some samples of a cell, which show a stroke, lie outside of the clump.
+    #[inline(always)]
+    pub(super) fn put_outside<const COLORED: bool>(
+        &mut self,
+        cell: usize,
+        places: &Places<COLORED>,
+        samples: &LaneMask,
+    ) {
+        if let Some(planes) = &mut self.0 {
+            let across = places.across();
             let mut outside: Lanes = [1.0; LANES];
             for k in 0..LANES {
                 outside[k] = select(across[k] < 0.0, -1.0, 1.0);

@@ -13,7 +13,7 @@ use super::reached::Reached;
 use super::shown::Shown;
 use super::stroke::Placed;
 use super::tile::{
-    Mask, NO_SAMPLES, ROWS, Target, add, both, cells, columns, greater, is_empty, without,
+    Cell, Mask, NO_SAMPLES, ROWS, Target, add, both, cells, columns, greater, is_empty, without,
 };
 use crate::drawing::Order;
 use std::ops::Range;
@@ -300,9 +300,9 @@ impl StrandMasks {
                 roundness: of_outline,
                 priority,
             };
-            offer.make::<false>(&outside, &mut self.row, target, &mut shown, unasked);
+            offer.make::<false, false>(&outside, &mut self.row, target, &mut shown, unasked);
         }
-        // What shows is told at once where a stroke is the clump: others, which are fewer, afterwards.
+        // Where the clump shows is told at once, and of the stroke that is the clump all else: others, which are fewer, afterwards.
         let is_clump = |stroke: &Covered| {
             let segments_of_clump = clump.as_ref().map(|clump| &clump.segments);
             segments_of_clump == Some(&stroke.segments)
@@ -317,7 +317,7 @@ impl StrandMasks {
                 priority,
             };
             if TELLS && strokes.iter().any(is_clump) {
-                offer.make::<true>(
+                offer.make::<true, true>(
                     &inside,
                     &mut self.row,
                     target,
@@ -329,23 +329,32 @@ impl StrandMasks {
                         told.put_clump(cell, places, lanes);
                     },
                 );
+            } else if TELLS {
+                offer.make::<true, false>(
+                    &inside,
+                    &mut self.row,
+                    target,
+                    &mut shown,
+                    #[inline(always)]
+                    |_, cell, places, lanes| told.put_clump(cell, places, lanes),
+                );
             } else {
-                offer.make::<false>(&inside, &mut self.row, target, &mut shown, unasked);
+                offer.make::<false, false>(&inside, &mut self.row, target, &mut shown, unasked);
             }
         }
-        let mut told_of_clump = NO_SAMPLES;
         for stroke in strokes {
             let placed = &self.placed[stroke.segments.clone()];
             let samples = both(&stroke.samples, &shown);
-            target.show_stroke(&samples, rank(stroke) < 0);
+            let rank = rank(stroke);
+            target.show_stroke(&samples, rank < 0);
             if !TELLS {
                 shade(placed, &samples, &mut self.row, target);
                 continue;
             }
             if is_clump(stroke) {
-                add(&mut told_of_clump, &samples);
                 continue;
             }
+            let outside = without(&samples, &clump_samples);
             tell::<true>(
                 placed,
                 &samples,
@@ -354,19 +363,10 @@ impl StrandMasks {
                 |cell, places, lanes| {
                     paint(target, cell, &places.color, lanes);
                     told.put_stroke(cell, places, lanes);
-                },
-            );
-        }
-        if TELLS && let Some(clump) = clump {
-            let placed = &self.placed[clump.segments.clone()];
-            let samples = without(&both(&clump_samples, &shown), &told_of_clump);
-            tell::<false>(
-                placed,
-                &samples,
-                &mut self.row,
-                #[inline(always)]
-                |cell, places, lanes| {
-                    told.put_clump(cell, places, lanes);
+                    if rank < 0 {
+                        let outside = Cell::of_index(cell).lanes(&outside);
+                        told.put_outside(cell, places, &outside);
+                    }
                 },
             );
         }
@@ -390,7 +390,7 @@ impl StrandMasks {
             };
             let mut shown = NO_SAMPLES;
             if TELLS {
-                offer.make::<true>(
+                offer.make::<true, true>(
                     &stroke.samples,
                     &mut self.row,
                     target,
@@ -403,7 +403,13 @@ impl StrandMasks {
                     },
                 );
             } else {
-                offer.make::<false>(&stroke.samples, &mut self.row, target, &mut shown, unasked);
+                offer.make::<false, false>(
+                    &stroke.samples,
+                    &mut self.row,
+                    target,
+                    &mut shown,
+                    unasked,
+                );
                 shade(placed, &shown, &mut self.row, target);
             }
             let place = stroke.number.checked_sub(1);
