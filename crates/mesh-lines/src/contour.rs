@@ -1,7 +1,6 @@
 //! Where something changes its sign on a surface: zero sets, and contours as those of the angle to the eye.
 
-use std::collections::HashMap;
-
+use crate::threads;
 use crate::{Beside, Kind, Line, LinePoint, MeshError, Place, Segment, Surface, Topology, View};
 
 /// f: how far the surface faces the eye at each smooth vertex, `n . c`. Positive towards the eye; 0 at contours (W 5.4, after Hertzmann and Zorin,
@@ -29,16 +28,32 @@ pub fn facing(surface: &Surface, view: &View) -> Vec<f64> {
 pub fn contours(surface: &Surface, view: &View, facing: &[f64]) -> Result<Vec<Line>, MeshError> {
     let mut lines = zero_set(surface, facing)?;
     // Each is asked for by all the edges around its vertex.
-    let mut known = HashMap::new();
-    let mut bend_at = |vertex| {
-        *known
-            .entry(vertex)
-            .or_insert_with(|| bend(vertex, surface, view, facing))
-    };
+    let mut bends = vec![f64::NAN; facing.len()];
+    let mut asked = Vec::new();
+    for point in lines.iter().flat_map(|line| &line.points) {
+        for (vertex, _) in beside(point, surface) {
+            if bends[vertex as usize].is_nan() {
+                bends[vertex as usize] = 0.0;
+                asked.push(vertex);
+            }
+        }
+    }
+    let found = threads::map(&asked, |_, vertex| bend(*vertex, surface, view, facing));
+    for (vertex, bend) in asked.into_iter().zip(found) {
+        bends[vertex as usize] = bend;
+    }
     for line in &mut lines {
-        mark_folds(line, surface, &mut bend_at);
+        mark_folds(line, surface, &bends);
     }
     Ok(lines)
+}
+
+/// The smooth vertices that have a part in a point of a line, and their weights.
+fn beside(point: &LinePoint, surface: &Surface) -> impl Iterator<Item = (u32, f64)> {
+    let vertices = surface.topology().smooth_corners()[point.place.triangle as usize];
+    let weights = point.place.weights.to_array();
+    let all = vertices.into_iter().zip(weights);
+    all.filter(|(_, weight)| *weight != 0.0)
 }
 
 /// The lines on which a function is 0 that is linear within triangles and given at the smooth vertices, as chains of one segment for each triangle that has both
@@ -187,19 +202,14 @@ fn unfolded(triangle: u32) -> Segment {
     }
 }
 
-/// Finds which segments of a contour are folded, and puts joints at its cusps.
-fn mark_folds(line: &mut Line, surface: &Surface, bend_at: &mut impl FnMut(u32) -> f64) {
-    let bends: Vec<f64> = line
-        .points
-        .iter()
-        .map(|point| {
-            let vertices = surface.topology().smooth_corners()[point.place.triangle as usize];
-            (0..3)
-                .filter(|&corner| point.place.weights[corner] != 0.0)
-                .map(|corner| point.place.weights[corner] * bend_at(vertices[corner]))
-                .sum()
-        })
-        .collect();
+/// Finds which segments of a contour are folded, by what [`bend`] is at the smooth vertices beside it, and puts joints at its cusps.
+fn mark_folds(line: &mut Line, surface: &Surface, bend_at: &[f64]) {
+    let bend = |point: &LinePoint| {
+        let bends =
+            beside(point, surface).map(|(vertex, weight)| weight * bend_at[vertex as usize]);
+        bends.sum()
+    };
+    let bends: Vec<f64> = line.points.iter().map(bend).collect();
     let points = std::mem::take(&mut line.points);
     let segments = std::mem::take(&mut line.segments);
     for (i, point) in points.iter().enumerate() {
