@@ -8,9 +8,9 @@ use super::segment::{Kind, Reach, Segment, Segments, Stroke, strokes_in_order};
 use super::shown::{NOTHING as SHOWS_NOTHING, Shown, TRIANGLE};
 use super::stroke::{NEARER, Placed, across};
 use super::tile::{
-    Cell, IdPlane, LANES, LaneMask, Lanes, Mask, NO_SAMPLES, NOTHING, OneByOne, Plane, ROWS, Stack,
-    Target, WIDTH, add, any, bits, both, cells, columns, id_plane, is_empty, least, lesser,
-    overwrite, plane, select, without,
+    Aligned, CELLS, CELLS_ACROSS, Cell, IdPlane, LANES, LaneMask, Lanes, Mask, NO_SAMPLES, NOTHING,
+    OneByOne, Plane, ROWS, Stack, Target, WIDTH, add, any, bits, both, cells, columns,
+    columns_of_cells, id_plane, is_empty, least, lesser, overwrite, plane, select, without,
 };
 use super::{Frame, Worker};
 use crate::drawing::{Decal, Drawing, LayerStrokes, Order, shown_reach};
@@ -71,6 +71,8 @@ pub(super) struct Decals {
 struct Planes {
     /// Marks of the surface that is seen; 0 where hair is.
     marks: IdPlane,
+    /// Of each cell the farthest hair, and the farthest surface that has a mark, 1/m; infinite where there is none. Of cells that decals may reach.
+    farthest: [Box<Aligned<[f32; CELLS]>>; 2],
     ratio: Plane,
     color: [Plane; 3],
     /// Where the decals that fit have brushes: the places beside their strokes.
@@ -149,6 +151,7 @@ impl Worker {
         decals.order.sort_unstable_by_key(key);
         let planes = decals.planes.get_or_insert_with(|| Planes {
             marks: id_plane(),
+            farthest: [const { [f32::INFINITY; CELLS] }; 2].map(|cells| Box::new(Aligned(cells))),
             ratio: plane(),
             color: [plane(), plane(), plane()],
             places: None,
@@ -203,10 +206,17 @@ impl Worker {
             };
             let mut taken = NO_SAMPLES;
             for &index in stroke {
-                if !decal.may_fit_any(&seen, segment(index).inv_depth) {
+                let nearest = segment(index).inv_depth;
+                if !decal.may_fit_any(&seen, nearest) {
                     continue;
                 }
-                offer.make(&scene, index, &open, planes, &mut taken);
+                let mut rows = [0; ROWS];
+                for (row, rows) in rows.iter_mut().enumerate() {
+                    *rows = columns(&open, row) & planes.may_fit(decal, row, nearest);
+                }
+                if let Some(placed) = Placed::new(&scene, index, &rows) {
+                    offer.make(&placed, &open, planes, &mut taken);
+                }
             }
             if let Some(brush) = &offer.brush {
                 planes.thin(brush, &mut taken);
@@ -359,12 +369,16 @@ impl Planes {
                 }
                 self.marks[cell.index] = marks;
                 let depth = &target.surface[cell.index];
+                let (mut of_hair, mut of_surface) = ([0.0; LANES], [0.0; LANES]);
                 for k in 0..LANES {
                     let hair = select(hair[k] != 0, strand[k], f32::INFINITY);
                     far_hair[k] = lesser(hair, far_hair[k]);
                     let surface = select(surface[k] != 0, depth[k], f32::INFINITY);
                     far_surface[k] = lesser(surface, far_surface[k]);
+                    (of_hair[k], of_surface[k]) = (hair, surface);
                 }
+                self.farthest[0][cell.index] = least(&of_hair);
+                self.farthest[1][cell.index] = least(&of_surface);
                 cell.add_to(&mut seen.hair, &hair);
                 cell.add_to(&mut seen.surfaces, &surface);
             }
@@ -374,10 +388,31 @@ impl Planes {
         seen
     }
 
+    /// The columns of a row of stacks in whose cells a decal may fit anything, of a segment of which nothing is nearer than that (1/m).
+    #[inline(always)]
+    fn may_fit(&self, decal: &Decal, row: usize, nearest: f32) -> u32 {
+        let mut may = [0; CELLS_ACROSS];
+        let is_on = [decal.on_hair, decal.marks != 0];
+        for ((farthest, is_on), least_m) in
+            self.farthest.iter().zip(is_on).zip(decal.least_behind())
+        {
+            if !is_on {
+                continue;
+            }
+            let mut own = [0.0; CELLS_ACROSS];
+            own.copy_from_slice(&farthest[row * CELLS_ACROSS..][..CELLS_ACROSS]);
+            for k in 0..CELLS_ACROSS {
+                let fits = (own[k] < f32::INFINITY) & may_lie_behind(nearest, own[k], least_m);
+                may[k] |= select(fits, u32::MAX, 0);
+            }
+        }
+        columns_of_cells(&may)
+    }
+
     /// Notes where beside a segment those samples of a cell lie that it fits and is nearer to than others before it, of which some fit those that
     /// are `taken`.
     #[inline(always)]
-    fn put_places(&mut self, cell: Cell, segment: u32, placed: &Placed, nearer: Nearer) {
+    fn put_places(&mut self, cell: Cell, placed: &Placed, nearer: Nearer) {
         let places = self.places.get_or_insert_with(|| PlacePlanes {
             segment: id_plane(),
             way: plane(),
@@ -395,7 +430,7 @@ impl Planes {
         let side_ratio = &places.side_ratio[cell.index];
         let mut tells_side = *fits;
         for k in 0..LANES {
-            segments[k] = select(wins[k] != 0, segment, segments[k]);
+            segments[k] = select(wins[k] != 0, placed.index, segments[k]);
             let tells = (taken[k] == 0) | (ratio[k] < side_ratio[k] * NEARER);
             tells_side[k] &= select(tells, u32::MAX, 0);
         }
@@ -489,21 +524,7 @@ struct Offer<'a> {
 impl Offer<'_> {
     /// Gives those `open` samples that a segment fits its colours, where no segment of the stroke is nearer; they are `taken`.
     #[inline(always)]
-    fn make(
-        &self,
-        scene: &TileContext,
-        index: u32,
-        open: &Mask,
-        planes: &mut Planes,
-        taken: &mut Mask,
-    ) {
-        let mut rows = [0; ROWS];
-        for (row, open_columns) in rows.iter_mut().enumerate() {
-            *open_columns = columns(open, row);
-        }
-        let Some(placed) = Placed::new(scene, index, &rows) else {
-            return;
-        };
+    fn make(&self, placed: &Placed, open: &Mask, planes: &mut Planes, taken: &mut Mask) {
         let covered = both(&placed.covered, open);
         for row in 0..ROWS {
             for cell in cells(row, columns(&covered, row)) {
@@ -540,7 +561,7 @@ impl Offer<'_> {
                         taken: &before,
                         ratio: &beside.ratio,
                     };
-                    planes.put_places(cell, index, &placed, nearer);
+                    planes.put_places(cell, placed, nearer);
                 }
                 for (plane, color) in planes.color.iter_mut().zip(&beside.color) {
                     overwrite(&mut plane[cell.index], color, &wins);

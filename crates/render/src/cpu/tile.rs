@@ -21,7 +21,7 @@ pub(super) const LANES: usize = 16;
 
 /// Cells of a row.
 pub(super) const CELLS_ACROSS: usize = WIDTH * STACK / LANES;
-const CELLS: usize = ROWS * CELLS_ACROSS;
+pub(super) const CELLS: usize = ROWS * CELLS_ACROSS;
 
 /// Pixels that a cell is wide.
 pub(super) const CELL_WIDTH: usize = LANES / STACK;
@@ -417,6 +417,16 @@ fn columns_of(lanes: &LaneMask, sample: usize) -> u32 {
     columns
 }
 
+/// The columns of those cells of a row whose bits are all set.
+#[inline(always)]
+pub(super) fn columns_of_cells(cells: &[u32; CELLS_ACROSS]) -> u32 {
+    let mut columns = 0;
+    for k in 0..CELLS_ACROSS {
+        columns |= cells[k] & CELL_BITS << (k * CELL_WIDTH);
+    }
+    columns
+}
+
 /// The cells of a row of stacks that hold one of some columns.
 ///
 /// An iterator of its own, because closures are not sure to be compiled for their caller's
@@ -613,13 +623,9 @@ impl Target {
         let mut open = [0; CELLS_ACROSS];
         for k in 0..CELLS_ACROSS {
             let is_hidden = (strand[k] > inv_depth) | (surface[k] > biased);
-            open[k] = select(is_hidden, 0, CELL_BITS << (k * CELL_WIDTH));
+            open[k] = select(is_hidden, 0, u32::MAX);
         }
-        let mut columns = 0;
-        for k in 0..CELLS_ACROSS {
-            columns |= open[k];
-        }
-        columns
+        columns_of_cells(&open)
     }
 
     /// Takes from the open columns of all rows those whose cells hide all that is as far as the given inverse depths.
