@@ -233,16 +233,6 @@ fn first_of_groups(lanes: u32, together: usize) -> u32 {
     lanes & !behind
 }
 
-/// All lanes of the groups that have one of some lanes.
-#[inline(always)]
-fn whole_groups(lanes: u32, together: usize) -> u32 {
-    let mut any = 0;
-    for k in 0..together {
-        any |= lanes >> k;
-    }
-    (any & starts(together)) * ((1 << together) - 1)
-}
-
 /// The part that a stroke of that seed has in each sample of a cell.
 #[inline(always)]
 fn parts(seed: u32, stack: &Stack) -> Lanes {
@@ -259,32 +249,56 @@ fn parts(seed: u32, stack: &Stack) -> Lanes {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cpu::tile::NO_SAMPLES;
+    use proptest::prelude::*;
 
     #[test]
-    fn groups_are_looked_up_where_their_first_lane_is() {
+    fn the_first_lane_of_each_group_is_found() {
         for together in [1, 2, 4] {
             for lanes in 0..1_u32 << LANES {
                 let is_set = |lane: &usize| lanes >> lane & 1 != 0;
                 let groups = (0..LANES).step_by(together);
-                let groups = groups.filter_map(|first| {
-                    let mut own = first..first + together;
-                    own.clone()
-                        .find(is_set)
-                        .map(|lane| (lane, own.by_ref().fold(0, |all, k| all | 1 << k)))
-                });
-                let (first, whole) = groups.fold((0, 0), |(first, whole), (lane, group)| {
-                    (first | 1 << lane, whole | group)
-                });
+                let firsts = groups.filter_map(|first| (first..first + together).find(is_set));
+                let expected = firsts.fold(0, |firsts, lane| firsts | 1 << lane);
                 assert_eq!(
                     first_of_groups(lanes, together),
-                    first,
+                    expected,
                     "{lanes:b}, {together}"
                 );
-                assert_eq!(
-                    whole_groups(lanes, together),
-                    whole,
-                    "{lanes:b}, {together}"
-                );
+            }
+        }
+    }
+
+    proptest! {
+        /// Of the samples of a group in a column the first that the stroke reaches is looked up, wherever any is wanted.
+        #[test]
+        fn each_group_is_looked_up_once(
+            reached in prop::collection::vec(any::<u32>(), NO_SAMPLES.len()),
+            some in prop::collection::vec(any::<u32>(), NO_SAMPLES.len()),
+            together in prop::sample::select(vec![1_usize, 2, 4]),
+        ) {
+            let (mut wanted, mut all) = (NO_SAMPLES, NO_SAMPLES);
+            for word in 0..all.len() {
+                (all[word], wanted[word]) = (reached[word], reached[word] & some[word]);
+            }
+            let mut look_ups = LookUps::default();
+            look_ups.find(&wanted, &all, together);
+            let mut expected = Vec::new();
+            for group in (0..all.len()).step_by(together) {
+                for column in 0..u32::BITS {
+                    let of = |mask: &Mask| (group..group + together).find(|word| mask[*word] >> column & 1 != 0);
+                    expected.extend(of(&wanted).and(of(&all)).map(|word| (word as u8, column as u8)));
+                }
+            }
+            expected.sort_unstable();
+            let mut found: Vec<(u8, u8)> = look_ups.words.iter().copied().zip(look_ups.columns.iter().copied()).collect();
+            found.sort_unstable();
+            prop_assert_eq!(&found, &expected);
+            // Those of the last one are filled up with it.
+            if let Some(last) = look_ups.words.len().checked_sub(1) {
+                let spots = look_ups.spots_from(last / LANES * LANES);
+                prop_assert_eq!(spots.count, last % LANES + 1);
+                prop_assert_eq!(spots.words[LANES - 1], u32::from(look_ups.words[last]));
             }
         }
     }

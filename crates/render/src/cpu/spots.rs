@@ -83,3 +83,38 @@ impl Spots {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cpu::tile::{Cell, NO_SAMPLES, Slope, Stack, WIDTH};
+    use crate::samples::sample_positions;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// A sample has what it has in its cell, to the last bit.
+        #[test]
+        fn spots_are_samples_of_cells(
+            words in prop::array::uniform16(0..NO_SAMPLES.len() as u32),
+            columns in prop::array::uniform16(0..WIDTH as u32),
+            slope in (-1e4..1e4_f32, -1e3..1e3_f32, -1e3..1e3_f32),
+            set in prop::collection::vec(0..=u32::MAX, NO_SAMPLES.len()),
+            samples in prop::sample::select(vec![1_u32, 2, 4, 8]),
+        ) {
+            let stack = &Stack::of_pixel(&sample_positions(samples).unwrap())[0];
+            let (corner, per_x, per_y) = slope;
+            let numbers = Slope { corner, per_x, per_y }.at_samples(stack);
+            let mut mask = NO_SAMPLES;
+            mask.copy_from_slice(&set);
+            let spots = Spots::new(words, columns, LANES);
+            let (own, is_set) = (spots.of(&numbers), spots.of_mask(&mask));
+            for k in 0..LANES {
+                let (word, column) = (words[k] as usize, columns[k] as usize);
+                let cell = Cell::new(word / STACK, column / CELL_WIDTH * CELL_WIDTH);
+                let lane = word % STACK + column % CELL_WIDTH * STACK;
+                prop_assert_eq!(own[k], numbers.of(cell)[lane]);
+                prop_assert_eq!(is_set[k], cell.lanes(&mask)[lane]);
+            }
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! The numbers of a cell: loops over them compile to vector instructions.
+
+use super::{LANES, LaneMask, Lanes};
+use std::ops::Range;
+
+/// Both values are worked out and one is taken. Never `if`: where a condition is used twice it becomes
+/// a branch, and a loop with a branch is no vector instruction.
+#[inline(always)]
+pub(in crate::cpu) fn select<T>(condition: bool, then: T, otherwise: T) -> T {
+    std::hint::select_unpredictable(condition, then, otherwise)
+}
+
+/// The lesser of two numbers, neither NaN.
+#[inline(always)]
+pub(in crate::cpu) fn lesser(a: f32, b: f32) -> f32 {
+    select(a < b, a, b)
+}
+
+/// The greater of two numbers, neither NaN.
+#[inline(always)]
+pub(in crate::cpu) fn greater(a: f32, b: f32) -> f32 {
+    select(a > b, a, b)
+}
+
+/// Numbers below 32, a bit each, from the least on: in place of a range around loops over lanes, or compilers would go along the
+/// range in vector instructions, and pick their numbers together, in place of along the lanes.
+pub(in crate::cpu) struct OneByOne(u32);
+
+impl OneByOne {
+    /// Those of a range.
+    #[inline(always)]
+    pub(in crate::cpu) fn of(range: &Range<usize>) -> Self {
+        Self((1_u32 << range.end) - (1 << range.start))
+    }
+
+    /// Those whose bits are set.
+    #[inline(always)]
+    pub(in crate::cpu) fn of_bits(bits: u32) -> Self {
+        Self(bits)
+    }
+}
+
+impl Iterator for OneByOne {
+    type Item = usize;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<usize> {
+        if self.0 == 0 {
+            return None;
+        }
+        let number = self.0.trailing_zeros() as usize;
+        self.0 &= self.0 - 1;
+        Some(number)
+    }
+}
+
+/// Takes on the new values where `mask` is set.
+#[inline(always)]
+pub(in crate::cpu) fn overwrite(old: &mut Lanes, new: &Lanes, mask: &LaneMask) {
+    let mut lanes = *old; // a store for each lane might become a branch
+    for k in 0..LANES {
+        lanes[k] = select(mask[k] != 0, new[k], old[k]);
+    }
+    *old = lanes;
+}
+
+/// The same for numbers that stand for something.
+#[inline(always)]
+pub(in crate::cpu) fn put(old: &mut [u32; LANES], new: &[u32; LANES], mask: &LaneMask) {
+    let mut lanes = *old;
+    for k in 0..LANES {
+        lanes[k] = select(mask[k] != 0, new[k], old[k]);
+    }
+    *old = lanes;
+}
+
+/// Whether a lane is set.
+#[inline(always)]
+pub(in crate::cpu) fn any(lanes: &LaneMask) -> bool {
+    let mut any = 0;
+    for k in 0..LANES {
+        any |= lanes[k];
+    }
+    any != 0
+}
+
+/// A bit for each lane that is set.
+#[inline(always)]
+pub(in crate::cpu) fn bits(lanes: &LaneMask) -> u32 {
+    let mut bits = 0;
+    for k in 0..LANES {
+        bits |= lanes[k] & 1 << k;
+    }
+    bits
+}
+
+/// The least of a cell's numbers.
+#[inline(always)]
+pub(in crate::cpu) fn least(lanes: &Lanes) -> f32 {
+    let mut least = *lanes;
+    let mut half = LANES / 2;
+    while half > 0 {
+        for k in 0..half {
+            least[k] = select(least[k] < least[k + half], least[k], least[k + half]);
+        }
+        half /= 2;
+    }
+    least[0]
+}
