@@ -94,6 +94,17 @@ pub enum RasterizerError {
 
 /// Draws [`Drawing`]s. Keeps its threads and its memory from picture to picture.
 pub struct Rasterizer {
+    frames: FrameMaker,
+    /// Of the last picture with passes its samples, or their colours and the outermost rows of each band.
+    planes: SamplePlanes,
+    light: Light,
+    rims: Vec<Ribbon>,
+    /// The memory of a picture that was given back; else empty.
+    spare: Vec<[f32; 4]>,
+}
+
+/// What frames are made in.
+struct FrameMaker {
     /// Its own threads, or none where it draws on the caller's.
     pool: Option<rayon::ThreadPool>,
     /// In a pixel.
@@ -103,12 +114,6 @@ pub struct Rasterizer {
     instructions: Instructions,
     /// One for each thread, once it has drawn.
     workers: Vec<Mutex<Worker>>,
-    /// Of the last picture with passes its samples, or their colours and the outermost rows of each band.
-    planes: SamplePlanes,
-    light: Light,
-    rims: Vec<Ribbon>,
-    /// The memory of a picture that was given back; else empty.
-    spare: Vec<[f32; 4]>,
 }
 
 /// What the drawing is taken apart into.
@@ -140,12 +145,14 @@ impl Rasterizer {
         let own_pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         let pool = threads.map(own_pool).transpose()?;
         Ok(Self {
-            pool,
-            samples: samples.len(),
-            stacks: Stack::of_pixel(&samples),
-            instructions: Instructions::best(),
-            parts: Parts::default(),
-            workers: Vec::new(),
+            frames: FrameMaker {
+                pool,
+                samples: samples.len(),
+                stacks: Stack::of_pixel(&samples),
+                instructions: Instructions::best(),
+                parts: Parts::default(),
+                workers: Vec::new(),
+            },
             planes: SamplePlanes::default(),
             light: Light::default(),
             rims: Vec::new(),
@@ -175,35 +182,11 @@ impl Rasterizer {
     }
 
     fn draw_means(&mut self, drawing: &Drawing) -> Result<Picture, DrawError> {
-        let Self {
-            pool,
-            samples,
-            stacks,
-            parts,
-            instructions,
-            workers,
-            spare,
-            ..
-        } = self;
-        let mut draw = || {
-            check::check(drawing)?;
-            let (mut picture, to_fill) = picture_for(drawing, *samples, spare)?;
-            let strokes = segment::strokes_in_order(drawing, Kind::Ordered);
-            let tile_height = tile::height(stacks);
-            parts.collect(drawing, &strokes, stacks);
-            let frame = Frame {
-                drawing,
-                strokes: &strokes,
-                parts,
-                samples: *samples,
-                stacks,
-                instructions: *instructions,
-                runs_of_joints: &[],
-                to_fill,
-            };
-            let threads = rayon::current_num_threads();
-            workers.resize_with(threads, || Mutex::new(Worker::new()));
-            let band_length = drawing.size[0] as usize * tile_height;
+        let spare = &mut self.spare;
+        self.frames.make(drawing, |frame, workers| {
+            let (mut picture, to_fill) = picture_for(drawing, frame.samples, spare)?;
+            let frame = Frame { to_fill, ..frame };
+            let band_length = drawing.size[0] as usize * tile::height(frame.stacks);
             picture
                 .pixels
                 .par_chunks_mut(band_length)
@@ -214,10 +197,45 @@ impl Rasterizer {
                     worker.draw_band(&frame, band, Output::Pixels(pixels));
                 });
             Ok(picture)
+        })
+    }
+}
+
+impl FrameMaker {
+    /// Takes a drawing apart, and calls `work` with what is needed to draw it, and with a worker for each thread, on these threads.
+    fn make<R: Send>(
+        &mut self,
+        drawing: &Drawing,
+        work: impl FnOnce(Frame, &[Mutex<Worker>]) -> Result<R, DrawError> + Send,
+    ) -> Result<R, DrawError> {
+        let Self {
+            pool,
+            samples,
+            stacks,
+            parts,
+            instructions,
+            workers,
+        } = self;
+        let make = || {
+            check::check(drawing)?;
+            let strokes = segment::strokes_in_order(drawing, Kind::Ordered);
+            parts.collect(drawing, &strokes, stacks);
+            workers.resize_with(rayon::current_num_threads(), || Mutex::new(Worker::new()));
+            let frame = Frame {
+                drawing,
+                strokes: &strokes,
+                parts,
+                samples: *samples,
+                stacks,
+                instructions: *instructions,
+                runs_of_joints: &[],
+                to_fill: None,
+            };
+            work(frame, workers)
         };
         match pool {
-            Some(pool) => pool.install(draw),
-            None => draw(),
+            Some(pool) => pool.install(make),
+            None => make(),
         }
     }
 }
@@ -318,6 +336,7 @@ impl Parts {
 }
 
 /// Everything that is needed to draw a part of a picture.
+#[derive(Clone, Copy)]
 struct Frame<'a> {
     drawing: &'a Drawing,
     strokes: &'a [Stroke],

@@ -3,10 +3,8 @@
 use super::light::{Light, Lines, TileLight};
 use super::ribbon::{Ribbon, Search, asked};
 use super::samples::runs_of_joints;
-use super::segment::{Kind, strokes_in_order};
 use super::tile;
 use super::{DrawError, Frame, Output, Rasterizer, Worker, own_worker, picture_for};
-use crate::check;
 use crate::drawing::Drawing;
 use crate::edges::{Beginnings, covered};
 use crate::features::Features;
@@ -29,42 +27,25 @@ impl Rasterizer {
     /// Draws a picture whose passes ask for no colours, where all samples of a pixel are drawn at once.
     pub(super) fn draw_under_lines(&mut self, drawing: &Drawing) -> Result<Picture, DrawError> {
         let Self {
-            pool,
-            samples,
-            stacks,
-            parts,
-            instructions,
-            workers,
+            frames,
             light,
             rims,
             spare,
             ..
         } = self;
-        let mut draw = || {
-            check::check(drawing)?;
-            let (mut picture, to_fill) = picture_for(drawing, *samples, spare)?;
-            let strokes = strokes_in_order(drawing, Kind::Ordered);
-            parts.collect(drawing, &strokes, stacks);
+        frames.make(drawing, |frame, workers| {
+            let (mut picture, to_fill) = picture_for(drawing, frame.samples, spare)?;
             let frame = Frame {
-                drawing,
-                strokes: &strokes,
-                parts,
-                samples: *samples,
-                stacks,
-                instructions: *instructions,
                 runs_of_joints: &runs_of_joints(drawing),
                 to_fill,
+                ..frame
             };
-            light.make_room(drawing, &stacks[0])?;
+            light.make_room(drawing, &frame.stacks[0])?;
             let found = frame.draw_and_find(workers, &mut picture, light, rims);
             let lines = frame.lines(&found);
-            light.draw_lines(&lines, *samples, drawing.background, &mut picture);
+            light.draw_lines(&lines, frame.samples, drawing.background, &mut picture);
             Ok(picture)
-        };
-        match pool {
-            Some(pool) => pool.install(draw),
-            None => draw(),
-        }
+        })
     }
 }
 
@@ -86,12 +67,11 @@ impl Frame<'_> {
     /// Draws all bands, and finds where the lines of each pass begin in them.
     fn draw_and_find(
         &self,
-        workers: &mut Vec<Mutex<Worker>>,
+        workers: &[Mutex<Worker>],
         picture: &mut Picture,
         light: &mut Light,
         rims: &mut Vec<Ribbon>,
     ) -> Vec<Vec<Beginnings>> {
-        workers.resize_with(rayon::current_num_threads(), || Mutex::new(Worker::new()));
         let search = self.search();
         let bands = search.height.div_ceil(search.band);
         rims.resize_with(bands, Ribbon::default);

@@ -1,6 +1,5 @@
 //! Pictures of which each sample tells what it shows: eight samples of each pixel at a time.
 
-use super::segment::{Kind, strokes_in_order};
 use super::tile;
 use super::{DrawError, Frame, Output, Rasterizer, Worker, empty_picture, own_worker};
 use crate::check;
@@ -38,43 +37,22 @@ impl Rasterizer {
         planes: &mut SamplePlanes,
         take: &mut (dyn FnMut(&mut SamplePlanes) + Send),
     ) -> Result<(), DrawError> {
-        let Self {
-            pool,
-            samples,
-            stacks,
-            parts,
-            instructions,
-            workers,
-            ..
-        } = self;
-        let mut draw = || {
-            check::check(drawing)?;
-            let strokes = strokes_in_order(drawing, Kind::Ordered);
-            parts.collect(drawing, &strokes, stacks);
+        self.frames.make(drawing, |frame, workers| {
             let runs_of_joints = runs_of_joints(drawing);
             let mut first = 0;
-            for stack in stacks.iter() {
-                let frame = Frame {
-                    drawing,
-                    strokes: &strokes,
-                    parts,
-                    samples: *samples,
+            for stack in frame.stacks {
+                let of_stack = Frame {
                     stacks: std::slice::from_ref(stack),
-                    instructions: *instructions,
                     runs_of_joints: &runs_of_joints,
-                    to_fill: None,
+                    ..frame
                 };
-                frame.make_room(planes, drawing.features.declared, first)?;
+                of_stack.make_room(planes, drawing.features.declared, first)?;
                 first += planes.samples().len();
-                frame.draw_bands(workers, planes);
+                of_stack.draw_bands(workers, planes);
                 take(planes);
             }
             Ok(())
-        };
-        match pool {
-            Some(pool) => pool.install(draw),
-            None => draw(),
-        }
+        })
     }
 }
 
@@ -82,11 +60,11 @@ impl Rasterizer {
     /// Draws a picture whose passes go over all its samples before their means are taken.
     pub(super) fn draw_with_passes(&mut self, drawing: &Drawing) -> Result<Picture, DrawError> {
         let reads_colors = |pass: &Edges| pass.channel == EdgeChannel::Color;
-        if self.stacks.len() == 1 && !drawing.passes.iter().any(reads_colors) {
+        if self.frames.stacks.len() == 1 && !drawing.passes.iter().any(reads_colors) {
             return self.draw_under_lines(drawing);
         }
         check::check(drawing)?;
-        let samples = self.samples;
+        let samples = self.frames.samples;
         let mut picture = empty_picture(drawing, samples)?;
         let mut planes = std::mem::take(&mut self.planes);
         let drawn = self.draw_samples(drawing, &mut planes, |planes| {
@@ -117,8 +95,7 @@ impl Frame<'_> {
     }
 
     /// Draws the samples of its stack into planes with room for them.
-    fn draw_bands(&self, workers: &mut Vec<Mutex<Worker>>, planes: &mut SamplePlanes) {
-        workers.resize_with(rayon::current_num_threads(), || Mutex::new(Worker::new()));
+    fn draw_bands(&self, workers: &[Mutex<Worker>], planes: &mut SamplePlanes) {
         let (layout, count) = (planes.layout, planes.samples().len());
         let (width, band) = (self.drawing.size[0] as usize, tile::height(self.stacks));
         let [of_ids, of_numbers] = planes.of_band();

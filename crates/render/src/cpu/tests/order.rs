@@ -1,7 +1,10 @@
 //! Which stroke a sample shows.
 
 use super::*;
+use crate::brushwork::{AlongStrand, BrushedLayer, Brushwork};
+use effects::{BrushSection, BrushTexture, Tool};
 use proptest::prelude::*;
+use std::sync::Arc;
 
 /// A clump of radius 4 around (10, 10) in 20 by 20 pixels, and layers of one disc each.
 fn clump_with(layers: Vec<LayerStrokes>) -> Drawing {
@@ -335,6 +338,28 @@ fn within(
     Stretches::Within(lists)
 }
 
+/// Strokes of the first layer by a crayon.
+fn crayon(drawing: &Drawing) -> Brushwork {
+    let section = BrushSection {
+        kind: Tool::Crayon,
+        ..BrushSection::default()
+    };
+    let along = |joint: usize| AlongStrand {
+        s: 0.1 * joint as f32,
+        whole: 0.1 * drawing.clump.len() as f32,
+        pixels: 40.0,
+        strand: 1,
+    };
+    Brushwork {
+        layers: vec![BrushedLayer {
+            layer: 0,
+            brush: Arc::new(BrushTexture::of_tool(&section).unwrap()),
+            seed: 7,
+        }],
+        joints: (0..drawing.clump.len()).map(along).collect(),
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
 
@@ -357,11 +382,14 @@ proptest! {
     }
 
     #[test]
-    fn instructions_change_no_bit(mut drawing in any_drawing()) {
+    fn instructions_change_no_bit(mut drawing in any_drawing(), has_brush: bool) {
         drawing.surfaces = vec![square(1.0)];
+        if has_brush {
+            drawing.brushwork = crayon(&drawing);
+        }
         let mut rasterizer = Rasterizer::new(5, Some(1)).unwrap();
         let mut pictures = Instructions::available().into_iter().map(|instructions| {
-            rasterizer.instructions = instructions;
+            rasterizer.frames.instructions = instructions;
             rasterizer.draw(&drawing).unwrap()
         });
         let first = pictures.next().unwrap();
