@@ -10,7 +10,7 @@ use crate::inputs::Input;
 use crate::params::{Kind, Param};
 use crate::repair;
 use naga::Module;
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use std::collections::HashSet;
 use syn::Item;
@@ -100,10 +100,13 @@ fn effect_program(
     paints: Paints,
 ) -> TokenStream {
     let common = program_items(source, params);
-    let gather = gather(&source.inputs, &format_ident!("joints"));
+    let gather = fields(&source.inputs, Input::value);
     let may_be_nearer = depth::may_be_nearer(module);
     let painting = painting(module, source, params, paints);
     let stroke = (!source.is_for_meshes).then(|| {
+        let blocks = source.inputs.iter().map(|input| input.block());
+        let at = fields(&source.inputs, Input::at);
+        let for_stroke = knowing("stroke", choices::of(module, "entry_stroke", params));
         quote! {
             #[inline(always)]
             fn stroke(
@@ -116,6 +119,24 @@ fn effect_program(
                 let _ = (joints, index, seed);
                 translated::entry_stroke(Inputs { #gather }, ::effects::rt::Scalar(instance), *params)
             }
+            #[inline(always)]
+            fn strokes(
+                joints: &::effects::Joints,
+                first: usize,
+                instance: u32,
+                seed: u32,
+                params: impl Fn(usize) -> Params,
+                mut give: impl FnMut(usize, ::effects::wgsl::Stroke),
+            ) {
+                let _ = (joints, first, seed);
+                #(#blocks)*
+                for lane in 0..::effects::LANES {
+                    let joint = Inputs { #at };
+                    let instance = ::effects::rt::Scalar(instance);
+                    give(lane, translated::entry_stroke(joint, instance, params(lane)));
+                }
+            }
+            #for_stroke
         }
     });
     quote! {
@@ -142,17 +163,10 @@ fn painting(module: &Module, source: &Source, params: &[Param], paints: Paints) 
         let variant = input.variant();
         quote!(::effects::SampleInput::#variant)
     });
-    let fields = inputs.iter().map(|input| {
-        let (field, value) = (format_ident!("{}", input.name), input.of_block());
-        match input.name {
-            // The list has the strand's part.
-            "seed" => quote!(seed: ::effects::wgsl::hash(seed ^ #value)),
-            _ => quote!(#field: #value),
-        }
-    });
+    let fields = fields(inputs, Input::of_block);
     let sample = quote! {
         let _ = (samples, index, seed);
-        let at = translated::Sample { #(#fields),* };
+        let at = translated::Sample { #fields };
     };
     let for_place = knowing("place", choices::of(module, "entry_place", params));
     let for_paint = knowing("paint", choices::of(module, "entry_paint", params));
@@ -215,7 +229,7 @@ fn knowing(function: &str, choice: Option<(&str, u32)>) -> TokenStream {
 
 fn clump_program(source: &Source, params: &[Param]) -> TokenStream {
     let common = program_items(source, params);
-    let gather = gather(&source.inputs, &format_ident!("joints"));
+    let gather = fields(&source.inputs, Input::value);
     quote! {
         /// The clump's WGSL, and the same in Rust.
         #[derive(Clone, Copy, Debug)]
@@ -287,6 +301,11 @@ fn program_items(source: &Source, params: &[Param]) -> TokenStream {
         let is_number = matches!(param.kind, Kind::Number { .. });
         is_number.then(|| quote!(if index == #index { params.#field = value; }))
     });
+    let rows = params.iter().enumerate().filter_map(|(index, param)| {
+        let is_number = matches!(param.kind, Kind::Number { .. });
+        is_number.then(|| (index, format_ident!("{}", param.name)))
+    });
+    let (rows, names): (Vec<usize>, Vec<_>) = rows.unzip();
     quote! {
         type Params = Params;
         const PARAMS: &'static [::effects::Param] = &[#(#table),*];
@@ -299,6 +318,19 @@ fn program_items(source: &Source, params: &[Param]) -> TokenStream {
         fn set_number(params: &mut Params, index: usize, value: f32) {
             #(#numbers)*
             let _ = (params, index, value);
+        }
+        #[inline(always)]
+        fn with_numbers(
+            params: &Params,
+            numbers: &[[f32; ::effects::LANES]],
+        ) -> impl Fn(usize) -> Params {
+            let _ = numbers;
+            let params = *params;
+            #(let #names = numbers[#rows];)*
+            move |lane| {
+                let _ = lane;
+                Params { #(#names: #names[lane],)* ..params }
+            }
         }
     }
 }
@@ -376,10 +408,10 @@ fn named_choices(params: &[Param]) -> TokenStream {
     }
 }
 
-/// The declared inputs' values at `index` of the lists.
-fn gather(inputs: &[&Input], lists: &Ident) -> TokenStream {
+/// The declared inputs' values.
+fn fields(inputs: &[&Input], value: fn(&Input) -> TokenStream) -> TokenStream {
     let fields = inputs.iter().map(|input| {
-        let (field, value) = (format_ident!("{}", input.name), input.value(lists));
+        let (field, value) = (format_ident!("{}", input.name), value(input));
         match input.name {
             // The list has the strand's part.
             "seed" => quote!(seed: ::effects::wgsl::hash(seed ^ #value)),

@@ -47,6 +47,38 @@ set! {
     pub struct InputSet of Input;
 }
 
+/// Joints of which strokes are worked out at once, by vector instructions.
+pub const LANES: usize = 16;
+
+/// The values of [`LANES`] joints from `first` on; where the list ends before, the last one's again. Translated code asks for those of each input that it
+/// declares.
+///
+/// They are copied, as compilers load nothing ahead of a branch from where they know of no values.
+#[must_use]
+#[inline(always)]
+pub fn block<T: Copy>(list: &[T], first: usize) -> [T; LANES] {
+    let list = &list[first..];
+    match list.first_chunk() {
+        Some(block) => *block,
+        None => padded(list),
+    }
+}
+
+#[cold]
+fn padded<T: Copy>(list: &[T]) -> [T; LANES] {
+    std::array::from_fn(|lane| list[lane.min(list.len() - 1)])
+}
+
+/// The same of an input whose list may be empty: then they are `otherwise`.
+#[must_use]
+#[inline(always)]
+pub fn block_or<T: Copy>(list: &[T], first: usize, otherwise: T) -> [T; LANES] {
+    match list.is_empty() {
+        true => [otherwise; LANES],
+        false => block(list, first),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,12 +1,12 @@
 //! A stroke of a layer on the strands of some neighbouring joints: evaluated where it is needed, smoothed, and put on the screen.
 
 use super::made::Made;
-use super::{LARGEST_PX, NOWHERE, disc_at, runs_of};
+use super::{LARGEST_PX, disc_at, runs_of};
 use crate::drawing::{Brush, Disc, Stretch};
 use crate::frame::{Frame, Object};
 use effects::smooth::{self, Smoother};
-use effects::wgsl::Stroke;
-use effects::{Joints, Layer};
+use effects::wgsl::vec2;
+use effects::{Joints, Layer, Strokes};
 use glam::Vec2;
 use std::ops::Range;
 use stroke_path::PathRun;
@@ -14,7 +14,7 @@ use stroke_path::PathRun;
 /// A thread's working memory.
 #[derive(Default)]
 pub(super) struct Scratch {
-    strokes: Vec<Stroke>,
+    strokes: Strokes,
     /// Of a strand's joints.
     pub(super) radii: Vec<f32>,
     /// Where its stroke is drawn.
@@ -87,11 +87,10 @@ impl Part<'_> {
                 // Those beside, to which strokes taper, too.
                 let part = part.start.saturating_sub(1).max(run.joints.start)
                     ..(part.end + 1).min(run.joints.end);
-                strokes.resize(part.start - start, NO_STROKE);
+                strokes.resize(part.start - start);
                 program.evaluate(inputs, part.clone(), number, self.seed, strokes);
-                let own = &strokes[part.start - start..];
                 radii.resize(part.start - start, 0.0);
-                radii.extend(own.iter().map(|stroke| stroke.radius));
+                radii.extend_from_slice(&strokes.radius[part.start - start..]);
                 continue;
             }
             let extent = program.extent(inputs, part, number, self.seed);
@@ -123,42 +122,56 @@ impl Part<'_> {
             stretch.first = made.discs.len();
             let joints = stretch.joints.clone();
             let places = joints.start - start..joints.end - start;
-            let strokes = match is_direct {
-                true => &mut strokes[places.clone()],
+            let first = match is_direct {
+                true => places.start,
                 false => {
                     strokes.clear();
                     program.evaluate(inputs, joints.clone(), number, self.seed, strokes);
-                    &mut strokes[..]
+                    0
                 }
             };
-            for (stroke, radius) in strokes.iter_mut().zip(&radii[places]) {
-                stroke.radius = *radius;
-                drop_if_not_finite(stroke);
+            for (k, (joint, radius)) in joints.zip(&radii[places]).enumerate() {
+                let (disc, color) = self.disc(joint, *radius, strokes, first + k);
+                made.discs.push(disc);
+                made.colors.push(color);
             }
-            made.discs.extend(joints.zip(&*strokes).map(|(i, stroke)| {
-                let offset = inputs.clump_shift[i] + stroke.offset;
-                let offset = Vec2::new(offset.x, offset.y);
-                let lift = self.lift.get(i).copied().unwrap_or(0.0);
-                let depth_offset = layer.depth_offset + stroke.depth_offset - lift;
-                let clump_radius = inputs.clump_radius[i];
-                let radius = stroke.radius;
-                disc_at(
-                    frame,
-                    self.object,
-                    i,
-                    offset,
-                    radius,
-                    clump_radius,
-                    depth_offset,
-                )
-            }));
-            let colors = strokes.iter().map(|stroke| stroke.color.to_array());
-            made.colors.extend(colors);
         }
         if frame.brush == Brush::Semicircle {
             self.go_around_flat_ends(pieces, &radii[..], drawn, &mut made.discs);
         }
         made.push_stretches(drawn);
+    }
+
+    /// Disc `index` of `strokes` at a joint, of this radius, and its colour. One that an effect failed to work out is not drawn.
+    fn disc(
+        &self,
+        joint: usize,
+        radius: f32,
+        strokes: &Strokes,
+        index: usize,
+    ) -> (Disc, [f32; 3]) {
+        let mut offset = strokes.offset[index];
+        let mut depth_offset = strokes.depth_offset[index];
+        let mut color = strokes.color[index].to_array();
+        let mut radius = radius;
+        let all = [offset.x, offset.y, radius, depth_offset];
+        let is_finite = |number: &f32| number.is_finite();
+        if !all.iter().chain(&color).all(is_finite) {
+            (offset, depth_offset) = (vec2([0.0; 2]), 0.0);
+            (color, radius) = ([0.0; 3], 0.0);
+        }
+        let offset = self.inputs.clump_shift[joint] + offset;
+        let lift = self.lift.get(joint).copied().unwrap_or(0.0);
+        let disc = disc_at(
+            self.frame,
+            self.object,
+            joint,
+            Vec2::new(offset.x, offset.y),
+            radius,
+            self.inputs.clump_radius[joint],
+            self.layer.depth_offset + depth_offset - lift,
+        );
+        (disc, color)
     }
 
     /// Moves the tips of strokes that are wider than their clump on by what they are wider, or an outline
@@ -331,29 +344,5 @@ pub(super) fn leave_out_unneeded(needed: &[bool], joints: &Range<usize>, radii: 
     let needed = needed.get(joints.clone()).unwrap_or_default();
     for (radius, is_needed) in radii.iter_mut().zip(needed) {
         *radius = if *is_needed { *radius } else { 0.0 };
-    }
-}
-
-const NO_STROKE: Stroke = Stroke {
-    offset: effects::wgsl::Vec2 { x: 0.0, y: 0.0 },
-    radius: 0.0,
-    depth_offset: 0.0,
-    color: NOWHERE,
-};
-
-/// A stroke that an effect failed to work out is not drawn.
-fn drop_if_not_finite(stroke: &mut Stroke) {
-    let numbers = [
-        stroke.offset.x,
-        stroke.offset.y,
-        stroke.radius,
-        stroke.depth_offset,
-    ];
-    let all = numbers
-        .iter()
-        .chain(&stroke.color.to_array())
-        .all(|x| x.is_finite());
-    if !all {
-        *stroke = NO_STROKE;
     }
 }
