@@ -104,9 +104,11 @@ fn effect_program(
     let may_be_nearer = depth::may_be_nearer(module);
     let painting = painting(module, source, params, paints);
     let stroke = (!source.is_for_meshes).then(|| {
-        let blocks = source.inputs.iter().map(|input| input.block());
-        let at = fields(&source.inputs, Input::at);
         let for_stroke = knowing("stroke", choices::of(module, "entry_stroke", params));
+        let in_block = in_block(
+            &source.inputs,
+            quote!(translated::entry_stroke(joint, ::effects::rt::Scalar(instance), params(lane))),
+        );
         quote! {
             #[inline(always)]
             fn stroke(
@@ -122,19 +124,13 @@ fn effect_program(
             #[inline(always)]
             fn strokes(
                 joints: &::effects::Joints,
-                first: usize,
+                block: ::core::ops::Range<usize>,
                 instance: u32,
                 seed: u32,
                 params: impl Fn(usize) -> Params,
                 mut give: impl FnMut(usize, ::effects::wgsl::Stroke),
             ) {
-                let _ = (joints, first, seed);
-                #(#blocks)*
-                for lane in 0..::effects::LANES {
-                    let joint = Inputs { #at };
-                    let instance = ::effects::rt::Scalar(instance);
-                    give(lane, translated::entry_stroke(joint, instance, params(lane)));
-                }
+                #in_block
             }
             #for_stroke
         }
@@ -229,25 +225,44 @@ fn knowing(function: &str, choice: Option<(&str, u32)>) -> TokenStream {
 
 fn clump_program(source: &Source, params: &[Param]) -> TokenStream {
     let common = program_items(source, params);
-    let gather = fields(&source.inputs, Input::value);
+    let in_block = in_block(
+        &source.inputs,
+        quote!(translated::entry_clump(joint, params(lane))),
+    );
     quote! {
         /// The clump's WGSL, and the same in Rust.
         #[derive(Clone, Copy, Debug)]
         pub struct Program;
         impl Program {
-            #[doc = "The joint's clump."]
-            #[must_use]
-            pub fn clump(
+            #[doc = "The clumps of a block's joints, as `strokes` of an effect's program."]
+            #[inline(always)]
+            fn clumps(
                 joints: &::effects::Joints,
-                index: usize,
+                block: ::core::ops::Range<usize>,
                 seed: u32,
-                params: &Params,
-            ) -> ::effects::wgsl::Clump {
-                translated::entry_clump(Inputs { #gather }, *params)
+                params: impl Fn(usize) -> Params,
+                mut give: impl FnMut(usize, ::effects::wgsl::Clump),
+            ) {
+                #in_block
             }
         }
         impl ::effects::Parameters for Program {
             #common
+        }
+    }
+}
+
+/// Gives what is `worked_out` of each `joint` of a block.
+fn in_block(inputs: &[&Input], worked_out: TokenStream) -> TokenStream {
+    let blocks = inputs.iter().map(|input| input.block());
+    let at = fields(inputs, Input::at);
+    quote! {
+        let _ = (joints, seed);
+        let first = block.start;
+        #(#blocks)*
+        for lane in 0..::effects::LANES {
+            let joint = Inputs { #at };
+            give(lane, #worked_out);
         }
     }
 }
@@ -324,11 +339,11 @@ fn program_items(source: &Source, params: &[Param]) -> TokenStream {
             params: &Params,
             numbers: &[[f32; ::effects::LANES]],
         ) -> impl Fn(usize) -> Params {
-            let _ = numbers;
+            let _ = (params, numbers);
             let params = *params;
             #(let #names = numbers[#rows];)*
             move |lane| {
-                let _ = lane;
+                let _ = (lane, params);
                 Params { #(#names: #names[lane],)* ..params }
             }
         }

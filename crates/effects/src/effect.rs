@@ -584,6 +584,7 @@ impl<E: StrokeEffect> WithParams<E> {
         let mut block = T::NOTHING;
         let mut numbers = self.params.numbers();
         for first in range.clone().step_by(LANES) {
+            let some = first..range.end.min(first + LANES);
             widest(
                 #[inline(always)]
                 || {
@@ -592,7 +593,7 @@ impl<E: StrokeEffect> WithParams<E> {
                         let params = E::Program::with_numbers(self.params.base(), &numbers);
                         E::Program::strokes(
                             joints,
-                            first,
+                            some.clone(),
                             instance,
                             seed,
                             params,
@@ -607,7 +608,7 @@ impl<E: StrokeEffect> WithParams<E> {
                         |params| {
                             E::Program::strokes(
                                 joints,
-                                first,
+                                some.clone(),
                                 instance,
                                 seed,
                                 #[inline(always)]
@@ -619,7 +620,7 @@ impl<E: StrokeEffect> WithParams<E> {
                     );
                 },
             );
-            list.append(&block, (range.end - first).min(LANES));
+            list.append(&block, some.len());
         }
     }
 }

@@ -4,6 +4,7 @@ use crate::joints::{Input, Joints, LANES};
 use crate::param::{Param, Values};
 use crate::samples::{SampleBlock, SampleInput};
 use crate::wgsl::{Lookup, Stroke, Vec3, Vec4, vec2, vec3};
+use std::ops::Range;
 
 /// Parameters with their table, and the WGSL that reads them. Implemented by the translated code.
 pub trait Parameters: Send + Sync + 'static {
@@ -56,20 +57,22 @@ pub trait Program: Parameters {
         }
     }
 
-    /// [`Self::stroke`] of the [`LANES`] joints from `first` on, in a loop that compiles to vector instructions: `give` gets the number of each joint, from 0
-    /// on, with its disc, and `params` tells its parameters.
+    /// [`Self::stroke`] of a block's joints, [`LANES`] at most, in a loop that compiles to vector instructions: `give` gets the number of each joint, from 0
+    /// on, with its disc, and `params` tells its parameters. What it gets of more joints than these is anything.
     #[inline(always)]
     fn strokes(
         joints: &Joints,
-        first: usize,
+        block: Range<usize>,
         instance: u32,
         seed: u32,
         params: impl Fn(usize) -> Self::Params,
         mut give: impl FnMut(usize, Stroke),
     ) {
-        for lane in 0..LANES {
-            let stroke = Self::stroke(joints, first + lane, instance, seed, &params(lane));
-            give(lane, stroke);
+        for (lane, index) in block.enumerate() {
+            give(
+                lane,
+                Self::stroke(joints, index, instance, seed, &params(lane)),
+            );
         }
     }
 

@@ -46,7 +46,10 @@ impl<P: Parameters> Varied<P> {
             words: source::words(P::PARAMS, values, &varying),
             numbers: match varying.is_empty() {
                 true => Vec::new(),
-                false => P::PARAMS.iter().map(|param| number(param, values)).collect(),
+                false => P::PARAMS
+                    .iter()
+                    .map(|param| number(param, values))
+                    .collect(),
             },
             indices: varying.iter().map(|v| v.index).collect(),
             varying,

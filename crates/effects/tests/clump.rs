@@ -1,7 +1,7 @@
 //! The clump of a joint: sizes by 5.1 to 5.3, the normal of 5.4, colours.
 
 use effects::wgsl::{Clump, hash, vec3};
-use effects::{Joints, Parameters, Values, clump};
+use effects::{Joints, Parameters, Values, Varied, clump};
 use proptest::prelude::*;
 
 fn joint(position: [f32; 3], backward: [f32; 3], u: f32) -> Joints {
@@ -31,7 +31,15 @@ fn clump_with(joints: &Joints, set: &[(&str, &str)]) -> Clump {
     {
         values.set_text("clump", name, text).unwrap();
     }
-    clump::Program::clump(joints, 0, 1, &clump::Program::params(&values))
+    let nothing = Clump {
+        normal: vec3([0.0; 3]),
+        radius: 0.0,
+        color: vec3([0.0; 3]),
+        shift: vec3([0.0; 3]),
+    };
+    let mut clumps = [nothing];
+    Varied::<clump::Program>::new(&values).clumps(joints, 0, 1, &mut clumps);
+    clumps[0]
 }
 
 #[test]

@@ -1,11 +1,11 @@
 //! A stroke of a layer on the strands of some neighbouring joints: evaluated where it is needed, smoothed, and put on the screen.
 
+use super::super::instructions::Instructions;
 use super::made::Made;
-use super::{LARGEST_PX, disc_at, runs_of};
+use super::{LARGEST_PX, NO_DISC, Sight, runs_of};
 use crate::drawing::{Brush, Disc, Stretch};
 use crate::frame::{Frame, Object};
 use effects::smooth::{self, Smoother};
-use effects::wgsl::vec2;
 use effects::{Joints, Layer, Strokes};
 use glam::Vec2;
 use std::ops::Range;
@@ -130,11 +130,7 @@ impl Part<'_> {
                     0
                 }
             };
-            for (k, (joint, radius)) in joints.zip(&radii[places]).enumerate() {
-                let (disc, color) = self.disc(joint, *radius, strokes, first + k);
-                made.discs.push(disc);
-                made.colors.push(color);
-            }
+            self.push_discs(joints, &radii[places], strokes, first, made);
         }
         if frame.brush == Brush::Semicircle {
             self.go_around_flat_ends(pieces, &radii[..], drawn, &mut made.discs);
@@ -142,36 +138,62 @@ impl Part<'_> {
         made.push_stretches(drawn);
     }
 
-    /// Disc `index` of `strokes` at a joint, of this radius, and its colour. One that an effect failed to work out is not drawn.
-    fn disc(
+    /// Adds discs of these joints and radii, and their colours, which lie from `first` on in `strokes`. One that an effect failed to work out is not
+    /// drawn.
+    fn push_discs(
         &self,
-        joint: usize,
-        radius: f32,
+        joints: Range<usize>,
+        radii: &[f32],
         strokes: &Strokes,
-        index: usize,
-    ) -> (Disc, [f32; 3]) {
-        let mut offset = strokes.offset[index];
-        let mut depth_offset = strokes.depth_offset[index];
-        let mut color = strokes.color[index].to_array();
-        let mut radius = radius;
-        let all = [offset.x, offset.y, radius, depth_offset];
-        let is_finite = |number: &f32| number.is_finite();
-        if !all.iter().chain(&color).all(is_finite) {
-            (offset, depth_offset) = (vec2([0.0; 2]), 0.0);
-            (color, radius) = ([0.0; 3], 0.0);
-        }
-        let offset = self.inputs.clump_shift[joint] + offset;
-        let lift = self.lift.get(joint).copied().unwrap_or(0.0);
-        let disc = disc_at(
-            self.frame,
-            self.object,
-            joint,
-            Vec2::new(offset.x, offset.y),
-            radius,
-            self.inputs.clump_radius[joint],
-            self.layer.depth_offset + depth_offset - lift,
+        first: usize,
+        made: &mut Made,
+    ) {
+        let Self { frame, inputs, .. } = self;
+        let (paths, count) = (frame.paths, joints.len());
+        let sight = Sight::of(frame, self.object);
+        let layer_offset = self.layer.depth_offset;
+        let of = first..first + count;
+        let (offsets, colors) = (&strokes.offset[of.clone()], &strokes.color[of.clone()]);
+        let depth_offsets = &strokes.depth_offset[of];
+        let (shifts, clump_radii) = (
+            &inputs.clump_shift[joints.clone()],
+            &inputs.clump_radius[joints.clone()],
         );
-        (disc, color)
+        let (centers, depths, px_per_metre) = (
+            &paths.center[joints.clone()],
+            &paths.depth[joints.clone()],
+            &paths.px_per_metre[joints.clone()],
+        );
+        let lifts = self.lift.get(joints);
+        let radii = &radii[..count];
+        let start = made.discs.len();
+        made.discs.resize(start + count, NO_DISC);
+        made.colors.resize(start + count, [0.0; 3]);
+        let (to_discs, to_colors) = (&mut made.discs[start..], &mut made.colors[start..]);
+        let (to_discs, to_colors) = (&mut to_discs[..count], &mut to_colors[..count]);
+        Instructions::best().run(
+            #[inline(always)]
+            || {
+                for k in 0..count {
+                    let [red, green, blue] = colors[k].to_array();
+                    let (x, y, depth_offset) = (offsets[k].x, offsets[k].y, depth_offsets[k]);
+                    let all = [x, y, radii[k], depth_offset, red, green, blue];
+                    let is_there = (all.iter()).fold(true, |all, number| all & number.is_finite());
+                    let or_nothing = |number: f32| if is_there { number } else { 0.0 };
+                    let offset =
+                        Vec2::new(shifts[k].x + or_nothing(x), shifts[k].y + or_nothing(y));
+                    let lift = lifts.map_or(0.0, |lifts| lifts[k]);
+                    to_discs[k] = sight.disc(
+                        (centers[k], depths[k], px_per_metre[k]),
+                        offset,
+                        or_nothing(radii[k]),
+                        clump_radii[k],
+                        layer_offset + or_nothing(depth_offset) - lift,
+                    );
+                    to_colors[k] = [red, green, blue].map(or_nothing);
+                }
+            },
+        );
     }
 
     /// Moves the tips of strokes that are wider than their clump on by what they are wider, or an outline
