@@ -1,16 +1,17 @@
 //! The clump: size profile, normal and basic colour of a strand, shared by all layers
 //! (`shaders/clump.wgsl`).
 
-effects::effect!("clump");
-
-use crate::joints::LANES;
+use crate::joints::{Joints, LANES};
 use crate::lanes::widest;
+use crate::program::Parameters as _;
 use crate::varied::Varied;
 use crate::wgsl::{Clump, vec3};
 
+effects::effect!("clump");
+
 impl Varied<Program> {
-    /// Sets the clumps of the joints from `first` on. `seed` is that of the clump.
-    pub fn clumps(&self, joints: &effects::Joints, first: usize, seed: u32, clumps: &mut [Clump]) {
+    /// Sets the clumps of the joints from `first` on, block by block. `seed` is that of the clump.
+    pub fn clumps(&self, joints: &Joints, first: usize, seed: u32, clumps: &mut [Clump]) {
         let mut numbers = self.numbers();
         // A row for each number of a clump, so that vector instructions store them.
         let mut rows = [[0.0; LANES]; 10];
@@ -22,8 +23,7 @@ impl Varied<Program> {
                 || {
                     if self.varies() {
                         self.fill(&mut numbers, joints, first, seed);
-                        let params =
-                            <Program as effects::Parameters>::with_numbers(self.base(), &numbers);
+                        let params = Program::with_numbers(self.base(), &numbers);
                         Program::clumps(
                             joints,
                             block,
@@ -59,6 +59,7 @@ impl Varied<Program> {
     }
 }
 
+/// Sets the rows of one clump.
 #[inline(always)]
 fn put(rows: &mut [[f32; LANES]; 10], lane: usize, clump: Clump) {
     let triples = [clump.normal, clump.color, clump.shift];

@@ -84,6 +84,15 @@ mod tests {
     use super::*;
 
     #[test]
+    fn blocks_go_on_with_the_last_joint() {
+        let list: Vec<u32> = (0..20).collect();
+        assert_eq!(block(&list, 3), std::array::from_fn(|lane| lane as u32 + 3));
+        assert_eq!(block(&list, 18)[..4], [18, 19, 19, 19]);
+        assert_eq!(block_or(&[], 18, 7), [7; LANES]);
+        assert_eq!(block_or(&list[..1], 0, 7), [0; LANES]);
+    }
+
+    #[test]
     fn sets() {
         let set = InputSet::of(&[Input::Gray, Input::U]).union(InputSet::of(&[Input::Strand]));
         assert!(set.has(Input::Gray) && set.has(Input::U) && set.has(Input::Strand));
