@@ -10,7 +10,7 @@ use crate::inputs::Input;
 use crate::params::{Kind, Param};
 use crate::repair;
 use naga::Module;
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
 use std::collections::HashSet;
 use syn::Item;
@@ -100,10 +100,15 @@ fn effect_program(
     paints: Paints,
 ) -> TokenStream {
     let common = program_items(source, params);
-    let gather = gather(&source.inputs, &format_ident!("joints"));
+    let gather = fields(&source.inputs, Input::value);
     let may_be_nearer = depth::may_be_nearer(module);
     let painting = painting(module, source, params, paints);
     let stroke = (!source.is_for_meshes).then(|| {
+        let for_stroke = knowing("stroke", choices::of(module, "entry_stroke", params));
+        let in_block = in_block(
+            &source.inputs,
+            quote!(translated::entry_stroke(joint, ::effects::rt::Scalar(instance), params(lane))),
+        );
         quote! {
             #[inline(always)]
             fn stroke(
@@ -116,6 +121,18 @@ fn effect_program(
                 let _ = (joints, index, seed);
                 translated::entry_stroke(Inputs { #gather }, ::effects::rt::Scalar(instance), *params)
             }
+            #[inline(always)]
+            fn strokes(
+                joints: &::effects::Joints,
+                block: ::core::ops::Range<usize>,
+                instance: u32,
+                seed: u32,
+                params: impl Fn(usize) -> Params,
+                mut give: impl FnMut(usize, ::effects::wgsl::Stroke),
+            ) {
+                #in_block
+            }
+            #for_stroke
         }
     });
     quote! {
@@ -142,17 +159,10 @@ fn painting(module: &Module, source: &Source, params: &[Param], paints: Paints) 
         let variant = input.variant();
         quote!(::effects::SampleInput::#variant)
     });
-    let fields = inputs.iter().map(|input| {
-        let (field, value) = (format_ident!("{}", input.name), input.of_block());
-        match input.name {
-            // The list has the strand's part.
-            "seed" => quote!(seed: ::effects::wgsl::hash(seed ^ #value)),
-            _ => quote!(#field: #value),
-        }
-    });
+    let fields = fields(inputs, Input::of_block);
     let sample = quote! {
         let _ = (samples, index, seed);
-        let at = translated::Sample { #(#fields),* };
+        let at = translated::Sample { #fields };
     };
     let for_place = knowing("place", choices::of(module, "entry_place", params));
     let for_paint = knowing("paint", choices::of(module, "entry_paint", params));
@@ -215,25 +225,44 @@ fn knowing(function: &str, choice: Option<(&str, u32)>) -> TokenStream {
 
 fn clump_program(source: &Source, params: &[Param]) -> TokenStream {
     let common = program_items(source, params);
-    let gather = gather(&source.inputs, &format_ident!("joints"));
+    let in_block = in_block(
+        &source.inputs,
+        quote!(translated::entry_clump(joint, params(lane))),
+    );
     quote! {
         /// The clump's WGSL, and the same in Rust.
         #[derive(Clone, Copy, Debug)]
         pub struct Program;
         impl Program {
-            #[doc = "The joint's clump."]
-            #[must_use]
-            pub fn clump(
+            #[doc = "The clumps of a block's joints, as `strokes` of an effect's program."]
+            #[inline(always)]
+            fn clumps(
                 joints: &::effects::Joints,
-                index: usize,
+                block: ::core::ops::Range<usize>,
                 seed: u32,
-                params: &Params,
-            ) -> ::effects::wgsl::Clump {
-                translated::entry_clump(Inputs { #gather }, *params)
+                params: impl Fn(usize) -> Params,
+                mut give: impl FnMut(usize, ::effects::wgsl::Clump),
+            ) {
+                #in_block
             }
         }
         impl ::effects::Parameters for Program {
             #common
+        }
+    }
+}
+
+/// Gives what is `worked_out` of each `joint` of a block.
+fn in_block(inputs: &[&Input], worked_out: TokenStream) -> TokenStream {
+    let blocks = inputs.iter().map(|input| input.block());
+    let at = fields(inputs, Input::at);
+    quote! {
+        let _ = (joints, seed);
+        let first = block.start;
+        #(#blocks)*
+        for lane in 0..::effects::LANES {
+            let joint = Inputs { #at };
+            give(lane, #worked_out);
         }
     }
 }
@@ -287,6 +316,11 @@ fn program_items(source: &Source, params: &[Param]) -> TokenStream {
         let is_number = matches!(param.kind, Kind::Number { .. });
         is_number.then(|| quote!(if index == #index { params.#field = value; }))
     });
+    let rows = params.iter().enumerate().filter_map(|(index, param)| {
+        let is_number = matches!(param.kind, Kind::Number { .. });
+        is_number.then(|| (index, format_ident!("{}", param.name)))
+    });
+    let (rows, names): (Vec<usize>, Vec<_>) = rows.unzip();
     quote! {
         type Params = Params;
         const PARAMS: &'static [::effects::Param] = &[#(#table),*];
@@ -299,6 +333,19 @@ fn program_items(source: &Source, params: &[Param]) -> TokenStream {
         fn set_number(params: &mut Params, index: usize, value: f32) {
             #(#numbers)*
             let _ = (params, index, value);
+        }
+        #[inline(always)]
+        fn with_numbers(
+            params: &Params,
+            numbers: &[[f32; ::effects::LANES]],
+        ) -> impl Fn(usize) -> Params {
+            let _ = (params, numbers);
+            let params = *params;
+            #(let #names = numbers[#rows];)*
+            move |lane| {
+                let _ = (lane, params);
+                Params { #(#names: #names[lane],)* ..params }
+            }
         }
     }
 }
@@ -376,10 +423,10 @@ fn named_choices(params: &[Param]) -> TokenStream {
     }
 }
 
-/// The declared inputs' values at `index` of the lists.
-fn gather(inputs: &[&Input], lists: &Ident) -> TokenStream {
+/// The declared inputs' values.
+fn fields(inputs: &[&Input], value: fn(&Input) -> TokenStream) -> TokenStream {
     let fields = inputs.iter().map(|input| {
-        let (field, value) = (format_ident!("{}", input.name), input.value(lists));
+        let (field, value) = (format_ident!("{}", input.name), value(input));
         match input.name {
             // The list has the strand's part.
             "seed" => quote!(seed: ::effects::wgsl::hash(seed ^ #value)),

@@ -185,16 +185,38 @@ impl Input {
         format_ident!("{}", variant(self.name))
     }
 
-    /// Its value at `index` of the `lists`, `effects::Joints`.
-    pub fn value(&self, lists: &Ident) -> TokenStream {
+    /// Its value at `index` of the lists `joints`.
+    pub fn value(&self) -> TokenStream {
         let name = format_ident!("{}", self.name);
         match self.where_empty {
             Some(value) => {
                 let value = value();
-                quote!(#lists.#name.get(index).copied().unwrap_or(#value))
+                quote!(joints.#name.get(index).copied().unwrap_or(#value))
             }
-            None => quote!(#lists.#name[index]),
+            None => quote!(joints.#name[index]),
         }
+    }
+
+    /// A variable for its values of the joints of a block, which begins at `first` of the lists `joints`.
+    pub fn block(&self) -> TokenStream {
+        let (name, block) = (format_ident!("{}", self.name), self.block_name());
+        match self.where_empty {
+            Some(value) => {
+                let value = value();
+                quote!(let #block = ::effects::block_or(&joints.#name, first, #value);)
+            }
+            None => quote!(let #block = ::effects::block(&joints.#name, first);),
+        }
+    }
+
+    /// Its value of joint `lane` of that block.
+    pub fn at(&self) -> TokenStream {
+        let block = self.block_name();
+        quote!(#block[lane])
+    }
+
+    fn block_name(&self) -> Ident {
+        format_ident!("block_{}", self.name)
     }
 }
 

@@ -89,7 +89,7 @@ fn measure(joint: Inputs, params: Params) -> f32 {
 fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
     // Those of the rim come first, so that the others lie on them.
     let is_rim = params.rim > 0.0 && instance < params.teeth;
-    let tooth = instance % params.teeth;
+    let tooth = instance % max(params.teeth, 1u);
     let place = params.spread * feather_place(tooth, params.teeth);
     let of_rim = color_or(params.rim_color, mix(joint.clump_color, params.color, vec3<f32>(0.5)));
     let color = select(params.color, of_rim, vec3<bool>(is_rim));

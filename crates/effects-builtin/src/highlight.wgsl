@@ -96,6 +96,11 @@ fn ring(joint: Inputs, normal: vec3<f32>, exponent: f32, shift: f32) -> f32 {
     return smoothstep(0.0, 0.5, dot(half_way, normal)) * power(sine, 4.0 * exponent);
 }
 
+/// Size of a stroke where so much light is mirrored, as a share of its full size.
+fn share_of_light(light: f32, shift: f32, params: Params) -> f32 {
+    return feather_share(-light, -max(params.full + shift, 0.01), -max(params.threshold + shift, 0.01));
+}
+
 fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
     let gap = 2.0 / f32(params.feathers);
     let scatter = 0.5 * params.scatter * gap * random_signed(joint.seed, 3u * instance + 4u);
@@ -117,16 +122,17 @@ fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
     let normal = unit_or(joint.normal + across, joint.normal);
 
     var whole = 0.0;
-    if (params.kind == 1u) {
-        whole = feather_share(joint.light_distance, max(params.near + shift, 0.0), max(params.far + shift, 0.0));
-    } else {
-        var light = 0.0;
-        if (params.kind == 0u) {
-            light = specular(joint, normal, params.exponent);
-        } else {
-            light = ring(joint, normal, params.exponent, params.shift) * (1.0 - 0.5 * min(params.roundness, 2.0) * place * place);
+    switch (params.kind) {
+        case 1u: {
+            whole = feather_share(joint.light_distance, max(params.near + shift, 0.0), max(params.far + shift, 0.0));
         }
-        whole = feather_share(-light, -max(params.full + shift, 0.01), -max(params.threshold + shift, 0.01));
+        case 0u: {
+            whole = share_of_light(specular(joint, normal, params.exponent), shift, params);
+        }
+        default: {
+            let light = ring(joint, normal, params.exponent, params.shift) * (1.0 - 0.5 * min(params.roundness, 2.0) * place * place);
+            whole = share_of_light(light, shift, params);
+        }
     }
     whole = whole * smoothstep(0.0, 0.1, joint.u - params.start);
     let share = without_hairlines(whole, size, 0.5 * params.thinnest * joint.unit);

@@ -29,7 +29,7 @@ impl effects::StrokeEffect for LineChalk {
 mod tests {
     use super::*;
     use effects::wgsl::{Stroke, vec2, vec3};
-    use effects::{Joints, Registry, Values};
+    use effects::{Joints, Registry, Strokes, Values};
 
     const HEAD_M: f32 = 0.3;
     const UNIT_M: f32 = HEAD_M / 300.0;
@@ -61,12 +61,12 @@ mod tests {
         for (name, text) in set {
             values.set_text("line.chalk", name, text).unwrap();
         }
-        let mut strokes = Vec::new();
+        let mut strokes = Strokes::default();
         let all = 0..joints.from_ends.len();
         effect
             .program(&values)
             .evaluate(joints, all, 0, 1, &mut strokes);
-        strokes
+        strokes.iter().collect()
     }
 
     const EVEN: [(&str, &str); 4] = [

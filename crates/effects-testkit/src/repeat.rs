@@ -5,7 +5,7 @@ use crate::joint::{Joint, list};
 use crate::strokes::evaluate;
 use crate::values::{defaults, some_instances};
 use effects::wgsl::Stroke;
-use effects::{AnyEffect, LayerProgram};
+use effects::{AnyEffect, LayerProgram, Strokes};
 
 pub(crate) fn check(effect: &dyn AnyEffect) -> Result<(), String> {
     let program = effect.program(&defaults(effect).values);
@@ -52,10 +52,10 @@ fn in_chunks(program: &dyn LayerProgram, joints: &[Joint], instance: u32) -> Vec
     let lists = list(joints, program.inputs());
     let mut pieces = Vec::new();
     for start in (0..joints.len()).step_by(5).rev() {
-        let mut strokes = Vec::new();
+        let mut strokes = Strokes::default();
         let range = start..(start + 5).min(joints.len());
         program.evaluate(&lists, range, instance, 1, &mut strokes);
-        pieces.push(strokes);
+        pieces.push(strokes.iter().collect::<Vec<_>>());
     }
     pieces.into_iter().rev().flatten().collect()
 }
@@ -70,9 +70,9 @@ fn on_threads(program: &dyn LayerProgram, joints: &[Joint], instance: u32) -> Ve
                 let range =
                     (number * part).min(joints.len())..((number + 1) * part).min(joints.len());
                 scope.spawn(move || {
-                    let mut strokes = Vec::new();
+                    let mut strokes = Strokes::default();
                     program.evaluate(lists, range, instance, 1, &mut strokes);
-                    strokes
+                    strokes.iter().collect::<Vec<_>>()
                 })
             })
             .collect();

@@ -4,7 +4,7 @@ use crate::hair;
 use crate::joint::{Joint, list};
 use crate::values::{Case, defaults, extremes, some_instances};
 use effects::wgsl::{Stroke, clump_disc, vec2};
-use effects::{AnyEffect, CLUMP_DISCS, Input, LayerProgram, Reach};
+use effects::{AnyEffect, CLUMP_DISCS, Input, LayerProgram, Reach, Strokes};
 
 /// Strokes side by side, at most: no clump is so wide that more would be seen.
 const MOST_INSTANCES: u32 = 1024;
@@ -18,9 +18,9 @@ const MOST_DUST: f32 = 0.05;
 /// The strokes of `instance` at these joints. The layer's seed is 1.
 pub(crate) fn evaluate(program: &dyn LayerProgram, joints: &[Joint], instance: u32) -> Vec<Stroke> {
     let joints_as_lists = list(joints, program.inputs());
-    let mut strokes = Vec::new();
+    let mut strokes = Strokes::default();
     program.evaluate(&joints_as_lists, 0..joints.len(), instance, 1, &mut strokes);
-    strokes
+    strokes.iter().collect()
 }
 
 pub(crate) fn on_any_joint(effect: &dyn AnyEffect) -> Result<(), String> {

@@ -2,7 +2,7 @@
 
 use crate::joint::{Joint, list};
 use crate::{hair, values};
-use effects::{AnyEffect, Input, InputSet, LayerProgram};
+use effects::{AnyEffect, Input, InputSet, LayerProgram, Strokes};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 pub(crate) fn check(effect: &dyn AnyEffect) -> Result<(), String> {
@@ -23,6 +23,6 @@ pub(crate) fn check(effect: &dyn AnyEffect) -> Result<(), String> {
 }
 
 fn evaluate(program: &dyn LayerProgram, joints: &[Joint], read: InputSet) {
-    let mut strokes = Vec::new();
+    let mut strokes = Strokes::default();
     program.evaluate(&list(joints, read), 0..joints.len(), 0, 1, &mut strokes);
 }

@@ -1,15 +1,16 @@
 //! What an effect is.
 
-use crate::joints::{Input, InputSet, Joints};
+use crate::joints::{Input, InputSet, Joints, LANES};
 use crate::lanes::widest;
 use crate::param::{Param, ParamKind, Values};
 use crate::paths::{Hair, MadePaths};
 use crate::program::{Parameters, Program};
 use crate::samples::{BLOCK, SampleBlock, SampleInput, SampleSet, Samples, Vectors};
 use crate::source::{PaintSource, ProgramSource};
+use crate::strokes::{Strokes, Taken};
 use crate::texture::{Lookups, Texels, Texture};
 use crate::varied::Varied;
-use crate::wgsl::{Stroke, Vec3, hash};
+use crate::wgsl::{Vec3, hash};
 use std::ops::Range;
 
 /// A stroke effect, as its author writes it.
@@ -286,7 +287,7 @@ pub trait LayerProgram: Send + Sync {
         range: Range<usize>,
         instance: u32,
         seed: u32,
-        strokes: &mut Vec<Stroke>,
+        strokes: &mut Strokes,
     );
     /// What is read of each sample that the layer shows, where its effect paints them; nothing where samples have their strokes' colours.
     fn paints(&self) -> Option<SampleSet>;
@@ -479,12 +480,9 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
         range: Range<usize>,
         instance: u32,
         seed: u32,
-        strokes: &mut Vec<Stroke>,
+        strokes: &mut Strokes,
     ) {
-        strokes.reserve(range.len());
-        self.params.for_each(joints, range, seed, |i, params| {
-            strokes.push(E::Program::stroke(joints, i, instance, seed, params));
-        });
+        self.each(joints, range, instance, seed, strokes);
     }
 
     fn paints(&self) -> Option<SampleSet> {
@@ -569,9 +567,60 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
         seed: u32,
         radii: &mut Vec<f32>,
     ) {
-        radii.reserve(range.len());
-        self.params.for_each(joints, range, seed, |i, params| {
-            radii.push(E::Program::stroke(joints, i, instance, seed, params).radius);
-        });
+        self.each(joints, range, instance, seed, radii);
+    }
+}
+
+impl<E: StrokeEffect> WithParams<E> {
+    /// Appends what is taken of the strokes of these joints.
+    fn each<T: Taken>(
+        &self,
+        joints: &Joints,
+        range: Range<usize>,
+        instance: u32,
+        seed: u32,
+        list: &mut T,
+    ) {
+        let mut block = T::NOTHING;
+        let mut numbers = self.params.numbers();
+        for first in range.clone().step_by(LANES) {
+            let some = first..range.end.min(first + LANES);
+            widest(
+                #[inline(always)]
+                || {
+                    if self.params.varies() {
+                        self.params.fill(&mut numbers, joints, first, seed);
+                        let params = E::Program::with_numbers(self.params.base(), &numbers);
+                        E::Program::strokes(
+                            joints,
+                            some.clone(),
+                            instance,
+                            seed,
+                            params,
+                            #[inline(always)]
+                            |lane, stroke| T::put(&mut block, lane, stroke),
+                        );
+                        return;
+                    }
+                    E::Program::knowing_stroke(
+                        self.params.base(),
+                        #[inline(always)]
+                        |params| {
+                            E::Program::strokes(
+                                joints,
+                                some.clone(),
+                                instance,
+                                seed,
+                                #[inline(always)]
+                                |_| params.clone(),
+                                #[inline(always)]
+                                |lane, stroke| T::put(&mut block, lane, stroke),
+                            );
+                        },
+                    );
+                },
+            );
+            list.append(&block, some.len());
+        }
     }
 }

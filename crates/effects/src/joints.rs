@@ -47,9 +47,50 @@ set! {
     pub struct InputSet of Input;
 }
 
+/// Joints of which strokes are worked out at once, by vector instructions.
+pub const LANES: usize = 16;
+
+/// The values of [`LANES`] joints from `first` on; where the list ends before, the last one's again. Translated code asks for those of each input that it
+/// declares.
+///
+/// They are copied, as compilers load nothing ahead of a branch from where they know of no values.
+#[must_use]
+#[inline(always)]
+pub fn block<T: Copy>(list: &[T], first: usize) -> [T; LANES] {
+    let list = &list[first..];
+    match list.first_chunk() {
+        Some(block) => *block,
+        None => padded(list),
+    }
+}
+
+#[cold]
+fn padded<T: Copy>(list: &[T]) -> [T; LANES] {
+    std::array::from_fn(|lane| list[lane.min(list.len() - 1)])
+}
+
+/// The same of an input whose list may be empty: then they are `otherwise`.
+#[must_use]
+#[inline(always)]
+pub fn block_or<T: Copy>(list: &[T], first: usize, otherwise: T) -> [T; LANES] {
+    match list.is_empty() {
+        true => [otherwise; LANES],
+        false => block(list, first),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn blocks_go_on_with_the_last_joint() {
+        let list: Vec<u32> = (0..20).collect();
+        assert_eq!(block(&list, 3), std::array::from_fn(|lane| lane as u32 + 3));
+        assert_eq!(block(&list, 18)[..4], [18, 19, 19, 19]);
+        assert_eq!(block_or(&[], 18, 7), [7; LANES]);
+        assert_eq!(block_or(&list[..1], 0, 7), [0; LANES]);
+    }
 
     #[test]
     fn sets() {

@@ -1,9 +1,10 @@
 //! What the translated code of an effect, or of the clump, implements.
 
-use crate::joints::{Input, Joints};
+use crate::joints::{Input, Joints, LANES};
 use crate::param::{Param, Values};
 use crate::samples::{SampleBlock, SampleInput};
 use crate::wgsl::{Lookup, Stroke, Vec3, Vec4, vec2, vec3};
+use std::ops::Range;
 
 /// Parameters with their table, and the WGSL that reads them. Implemented by the translated code.
 pub trait Parameters: Send + Sync + 'static {
@@ -20,6 +21,20 @@ pub trait Parameters: Send + Sync + 'static {
     /// Sets number `index` of [`Self::PARAMS`]. Only asked for numbers that vary.
     fn set_number(params: &mut Self::Params, index: usize, value: f32) {
         let _ = (params, index, value);
+    }
+    /// The parameters of each joint of a block, with those `numbers`: a row for each of [`Self::PARAMS`], of which those that are no numbers are not looked at.
+    #[inline(always)]
+    fn with_numbers(
+        params: &Self::Params,
+        numbers: &[[f32; LANES]],
+    ) -> impl Fn(usize) -> Self::Params {
+        |lane| {
+            let mut params = params.clone();
+            for (index, row) in numbers.iter().enumerate() {
+                Self::set_number(&mut params, index, row[lane]);
+            }
+            params
+        }
     }
 }
 
@@ -40,6 +55,31 @@ pub trait Program: Parameters {
             depth_offset: 0.0,
             color: vec3([0.0; 3]),
         }
+    }
+
+    /// [`Self::stroke`] of a block's joints, [`LANES`] at most, in a loop that compiles to vector instructions: `give` gets the number of each joint, from 0
+    /// on, with its disc, and `params` tells its parameters. What it gets of more joints than these is anything.
+    #[inline(always)]
+    fn strokes(
+        joints: &Joints,
+        block: Range<usize>,
+        instance: u32,
+        seed: u32,
+        params: impl Fn(usize) -> Self::Params,
+        mut give: impl FnMut(usize, Stroke),
+    ) {
+        for (lane, index) in block.enumerate() {
+            give(
+                lane,
+                Self::stroke(joints, index, instance, seed, &params(lane)),
+            );
+        }
+    }
+
+    /// Calls `work` with the parameters. Where strokes switch on a choice, `work` is compiled once for each, which it then knows.
+    #[inline(always)]
+    fn knowing_stroke(params: &Self::Params, mut work: impl FnMut(&Self::Params)) {
+        work(params);
     }
 
     /// Whether a stroke's own `depth_offset` may be below 0; that it never is, is told from the WGSL where only written numbers are

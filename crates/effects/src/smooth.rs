@@ -7,18 +7,41 @@
 
 use std::ops::Range;
 
-/// Smooths lists of sizes, in a time that grows as the lists do, however long stretches may be. Keeps its memory.
+/// Smooths lists of sizes, in a time that grows as the lists do, and hardly with how long stretches may be. Keeps its memory.
 #[derive(Clone, Debug, Default)]
 pub struct Smoother {
     /// For each place the window that begins there, and the one that ends there, as the places that they hold.
-    from: Vec<Range<usize>>,
-    to: Vec<Range<usize>>,
+    from: Vec<Window>,
+    to: Vec<Window>,
     /// The least sizes in them.
     after: Vec<f32>,
     before: Vec<f32>,
     /// Working memory.
     extremes: Extremes,
     found: Vec<f32>,
+}
+
+/// Places that follow each other, one or more.
+#[derive(Clone, Debug)]
+struct Window {
+    places: Range<usize>,
+    /// The two stretches that cover it, of [`Extremes::stretches`].
+    stretches: [usize; 2],
+}
+
+impl Window {
+    /// Of as many places.
+    fn new(places: Range<usize>, count: usize) -> Self {
+        let doublings = places.len().ilog2() as usize;
+        let of_length = doublings * count;
+        Self {
+            stretches: [
+                of_length + places.start,
+                of_length + places.end - (1 << doublings),
+            ],
+            places,
+        }
+    }
 }
 
 /// Whether windows may reach beyond the strand, where nothing counts.
@@ -70,19 +93,23 @@ impl Smoother {
     /// For each place the places from it to `length` after it, and those from `length` before it to it.
     fn find_windows(&mut self, places: &[f32], length: f32) {
         let (mut start, mut end) = (0, 0);
+        let (mut longest, count) = (1, places.len());
         self.to.clear();
         self.to.extend(places.iter().enumerate().map(|(i, place)| {
             let before = places[start..i].iter();
             start += before.take_while(|other| **other < place - length).count();
-            start..i + 1
+            longest = longest.max(i + 1 - start);
+            Window::new(start..i + 1, count)
         }));
         self.from.clear();
         self.from
             .extend(places.iter().enumerate().map(|(i, place)| {
                 let after = places[end..].iter();
                 end += after.take_while(|other| **other <= place + length).count();
-                i..end
+                longest = longest.max(end - i);
+                Window::new(i..end, count)
             }));
+        self.extremes.doublings = longest.ilog2() as usize;
     }
 
     /// At each place the greatest, over all windows of `length` that hold it, of the least value in the
@@ -102,24 +129,26 @@ impl Smoother {
         extremes.find(values, to, is_less, before);
         // A window ends between places; one beyond the strand's end ends there, or is the last one.
         for (i, (least, window)) in after.iter_mut().zip(&*from).enumerate() {
-            if window.end < count {
+            let next = window.places.end;
+            if next < count {
                 let end = places[i] + length;
-                *least = least.min(between(places, values, window.end - 1, end));
+                *least = least.min(between(places, values, next - 1, end));
             }
         }
         for (i, (least, window)) in before.iter_mut().zip(&*to).enumerate() {
-            if window.start > 0 {
+            let first = window.places.start;
+            if first > 0 {
                 let start = places[i] - length;
-                *least = least.min(between(places, values, window.start - 1, start));
+                *least = least.min(between(places, values, first - 1, start));
             }
         }
         if ends == Ends::Closed {
             let (first, last) = (after[0], before[count - 1]);
             let beyond = after.iter_mut().zip(&*from);
-            let beyond = beyond.filter(|(_, window)| window.end == count);
+            let beyond = beyond.filter(|(_, window)| window.places.end == count);
             beyond.for_each(|(least, _)| *least = last);
             let beyond = before.iter_mut().zip(&*to);
-            let beyond = beyond.filter(|(_, window)| window.start == 0);
+            let beyond = beyond.filter(|(_, window)| window.places.start == 0);
             beyond.for_each(|(least, _)| *least = first);
         }
         // The windows that hold a place end up to a length after it, or begin up to a length before.
@@ -158,15 +187,14 @@ fn has_gap(values: &[f32]) -> bool {
     falls && pairs.any(|pair| pair[1] > pair[0])
 }
 
-/// Windows of no more values than this on average are looked through one by one, which takes less time.
-const SHORT: usize = 5;
-
-/// Finds extremes of windows, of which each begins and ends no earlier than the one before. Every value enters and leaves a list
-/// of candidates once (Lemire, "Streaming Maximum-Minimum Filter Using No More than Three Comparisons per Element", 2006).
+/// Finds extremes of windows: each is the more extreme of two stretches that cover it, of one, two, four or more values each, whose own are worked out first
+/// (the sparse table of Bender and Farach-Colton, "The LCA Problem Revisited", 2000).
 #[derive(Clone, Debug, Default)]
 struct Extremes {
-    /// Places in the window, and their values, of which each is more extreme than all behind it.
-    candidates: Vec<(usize, f32)>,
+    /// Those of the stretches that begin at each place: of one value each, then of two, and so on.
+    stretches: Vec<f32>,
+    /// How often one value is doubled to the longest of them.
+    doublings: usize,
 }
 
 impl Extremes {
@@ -175,46 +203,33 @@ impl Extremes {
     fn find(
         &mut self,
         values: &[f32],
-        windows: &[Range<usize>],
+        windows: &[Window],
         is_more: impl Fn(f32, f32) -> bool,
         extremes: &mut Vec<f32>,
     ) {
-        extremes.clear();
-        let looked_at: usize = windows.iter().map(ExactSizeIterator::len).sum();
-        if looked_at <= SHORT * windows.len() {
-            extremes.extend(windows.iter().map(|window| {
-                let (first, others) = (values[window.start], window.start + 1..window.end);
-                values[others]
-                    .iter()
-                    .fold(first, |best, value| match is_more(*value, best) {
-                        true => *value,
-                        false => best,
-                    })
-            }));
-            return;
+        let count = values.len();
+        let extreme = |a: f32, b: f32| if is_more(b, a) { b } else { a };
+        self.stretches.resize((self.doublings + 1) * count, 0.0);
+        self.stretches[..count].copy_from_slice(values);
+        for doubling in 0..self.doublings {
+            let (done, longer) = self.stretches.split_at_mut((doubling + 1) * count);
+            let halves = &done[doubling * count..];
+            let halves = halves.iter().zip(&halves[1 << doubling..]);
+            for (longer, (a, b)) in longer.iter_mut().zip(halves) {
+                *longer = extreme(*a, *b);
+            }
         }
-        self.candidates.resize(values.len(), (0, 0.0));
-        let candidates = &mut self.candidates[..];
-        // Those that are left, and the next value to enter.
-        let (mut first, mut end, mut next) = (0, 0, 0);
+        extremes.clear();
+        let stretches = &self.stretches[..];
         extremes.extend(windows.iter().map(|window| {
-            for value in &values[next..window.end] {
-                while end > first && !is_more(candidates[end - 1].1, *value) {
-                    end -= 1;
-                }
-                candidates[end] = (next, *value);
-                end += 1;
-                next += 1;
-            }
-            while candidates[first].0 < window.start {
-                first += 1;
-            }
-            candidates[first].1
+            let [a, b] = window.stretches;
+            extreme(stretches[a], stretches[b])
         }));
     }
 }
 
 /// The value at `place`, between the places `i` and `i + 1`, which differ.
+#[inline]
 fn between(places: &[f32], values: &[f32], i: usize, place: f32) -> f32 {
     let way = (place - places[i]) / (places[i + 1] - places[i]);
     let (a, b) = (values[i], values[i + 1]);

@@ -1,8 +1,8 @@
 //! A program's parameters, of which some vary along a strand and from strand to strand.
 
-use crate::joints::{Input, InputSet, Joints};
+use crate::joints::{Input, InputSet, Joints, LANES, block};
 use crate::lanes::widest;
-use crate::param::{ParamKind, Value, Values};
+use crate::param::{Param, ParamKind, Value, Values};
 use crate::program::Parameters;
 use crate::samples::{BLOCK, SampleBlock};
 use crate::seed::layer_seed;
@@ -16,6 +16,8 @@ use std::ops::Range;
 pub struct Varied<P: Parameters> {
     base: P::Params,
     varying: Vec<Varying>,
+    /// Where any varies, those of a block where nothing does: [`Parameters::with_numbers`].
+    numbers: Vec<[f32; LANES]>,
     /// For a graphics card: [`ProgramSource::words`] and [`ProgramSource::varying`].
     words: Vec<u32>,
     indices: Vec<usize>,
@@ -42,6 +44,13 @@ impl<P: Parameters> Varied<P> {
         Self {
             base: P::params(values),
             words: source::words(P::PARAMS, values, &varying),
+            numbers: match varying.is_empty() {
+                true => Vec::new(),
+                false => P::PARAMS
+                    .iter()
+                    .map(|param| number(param, values))
+                    .collect(),
+            },
             indices: varying.iter().map(|v| v.index).collect(),
             varying,
         }
@@ -116,6 +125,31 @@ impl<P: Parameters> Varied<P> {
         }
     }
 
+    /// The numbers of a block's joints where nothing varies.
+    #[inline]
+    pub(crate) fn numbers(&self) -> Vec<[f32; LANES]> {
+        self.numbers.clone()
+    }
+
+    /// Sets those that vary of the block from joint `first` on. `seed` is the layer's.
+    #[inline(always)]
+    pub(crate) fn fill(
+        &self,
+        numbers: &mut [[f32; LANES]],
+        joints: &Joints,
+        first: usize,
+        seed: u32,
+    ) {
+        let u = block(&joints.u, first);
+        let mut strand = block(&joints.seed, first);
+        for strand in &mut strand {
+            *strand = hash(seed ^ *strand);
+        }
+        for varying in &self.varying {
+            numbers[varying.index] = varying.at_all(&u, &strand);
+        }
+    }
+
     /// [`Self::for_each`] of the samples of a block.
     #[inline]
     pub fn for_each_sample(
@@ -144,5 +178,13 @@ impl<P: Parameters> Varied<P> {
             }
             evaluate(i, &params);
         }
+    }
+}
+
+/// What a parameter is of a block's joints where it doesn't vary, if it is a number.
+fn number(param: &Param, values: &Values) -> [f32; LANES] {
+    match param.kind {
+        ParamKind::Number { .. } => [values.number(param.name); LANES],
+        _ => [0.0; LANES],
     }
 }

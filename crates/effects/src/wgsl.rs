@@ -15,14 +15,14 @@ include!(concat!(env!("OUT_DIR"), "/prelude.rs"));
 /// A vector of two.
 #[must_use]
 #[inline]
-pub fn vec2([x, y]: [f32; 2]) -> Vec2<f32> {
+pub const fn vec2([x, y]: [f32; 2]) -> Vec2<f32> {
     Vec2 { x, y }
 }
 
 /// A vector of three.
 #[must_use]
 #[inline]
-pub fn vec3([x, y, z]: [f32; 3]) -> Vec3<f32> {
+pub const fn vec3([x, y, z]: [f32; 3]) -> Vec3<f32> {
     Vec3 { x, y, z }
 }
 

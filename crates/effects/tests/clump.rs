@@ -1,7 +1,7 @@
 //! The clump of a joint: sizes by 5.1 to 5.3, the normal of 5.4, colours.
 
 use effects::wgsl::{Clump, hash, vec3};
-use effects::{Joints, Parameters, Values, clump};
+use effects::{Joints, Parameters, Values, Varied, clump};
 use proptest::prelude::*;
 
 fn joint(position: [f32; 3], backward: [f32; 3], u: f32) -> Joints {
@@ -22,6 +22,13 @@ fn joint(position: [f32; 3], backward: [f32; 3], u: f32) -> Joints {
     }
 }
 
+const NOTHING: Clump = Clump {
+    normal: vec3([0.0; 3]),
+    radius: 0.0,
+    color: vec3([0.0; 3]),
+    shift: vec3([0.0; 3]),
+};
+
 /// The clump with these parameters set, no variation unless they say so.
 fn clump_with(joints: &Joints, set: &[(&str, &str)]) -> Clump {
     let mut values = Values::defaults(clump::Program::PARAMS);
@@ -31,7 +38,9 @@ fn clump_with(joints: &Joints, set: &[(&str, &str)]) -> Clump {
     {
         values.set_text("clump", name, text).unwrap();
     }
-    clump::Program::clump(joints, 0, 1, &clump::Program::params(&values))
+    let mut clumps = [NOTHING];
+    Varied::<clump::Program>::new(&values).clumps(joints, 0, 1, &mut clumps);
+    clumps[0]
 }
 
 #[test]
@@ -187,5 +196,42 @@ proptest! {
         let clump = clump_with(&joint(position, [0.0, 1.0, 0.0], u), &set);
         prop_assert!(clump.radius.is_finite() && clump.radius >= 0.0);
         prop_assert!(clump.normal.to_array().iter().all(|x| x.is_finite()));
+    }
+}
+
+#[test]
+fn clumps_of_a_block_are_those_of_each_joint() {
+    const JOINTS: usize = 2 * effects::LANES + 3;
+    let u = |i: usize| i as f32 / (JOINTS - 1) as f32;
+    let all = JOINTS;
+    let lists = Joints {
+        position: (0..all)
+            .map(|i| vec3([0.3 * u(i), 1.0 - u(i), 0.1]))
+            .collect(),
+        forward: vec![vec3([0.0, -1.0, 0.0]); all],
+        backward: vec![vec3([0.0, 1.0, 0.0]); all],
+        view_direction: vec![vec3([0.6, 0.8, 0.0]); all],
+        u: (0..all).map(u).collect(),
+        seed: (0..all).map(|i| hash(i as u32 / 10)).collect(),
+        strand_mean: vec![vec3([0.0; 3]); all],
+        head_center: vec![vec3([0.0; 3]); all],
+        head_height: vec![2.0; all],
+        strand_size: vec![20.0; all],
+        light_direction: vec![vec3([0.0, 1.0, 0.0]); all],
+        ..Joints::default()
+    };
+    for size in ["1.2", "(curve: [(0, 1), (0.7, 2), (1, 0.5)], vary: 0.5)"] {
+        let mut values = Values::defaults(clump::Program::PARAMS);
+        values.set_text("clump", "size", size).unwrap();
+        values.set_text("clump", "size_variation", "0.4").unwrap();
+        let program = Varied::<clump::Program>::new(&values);
+        let mut clumps = vec![NOTHING; all];
+        program.clumps(&lists, 0, 1, &mut clumps);
+        for (i, clump) in clumps.iter().enumerate() {
+            let mut alone = [NOTHING];
+            program.clumps(&lists, i, 1, &mut alone);
+            assert_eq!(*clump, alone[0], "size {size}, joint {i}");
+        }
+        assert!(clumps[3].radius != clumps[13].radius);
     }
 }

@@ -12,9 +12,7 @@ use crate::frame::{FAR_LIGHT, Frame, FrameError, Head, NO_COLOR, NO_TAPER, Objec
 use crate::painting;
 use crate::samples::sample_positions;
 use effects::wgsl::{Clump, clump_disc, hash, vec2, vec3};
-use effects::{
-    CLUMP_DISCS, Input, InputSet, Joints, Layer, StrandJoints, Units, clump, layer_seed,
-};
+use effects::{CLUMP_DISCS, Input, InputSet, Joints, Layer, StrandJoints, Units, layer_seed};
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -233,7 +231,13 @@ impl Evaluator {
         let place = shift + vec2([x, y]);
         let place = Vec2::new(place.x, place.y);
         let depth_offset = -self.lift.get(joint).copied().unwrap_or(0.0);
-        disc_at(frame, object, joint, place, size, radius, depth_offset)
+        let paths = frame.paths;
+        let seen = (
+            paths.center[joint],
+            paths.depth[joint],
+            paths.px_per_metre[joint],
+        );
+        Sight::of(frame, object).disc(seen, place, size, radius, depth_offset)
     }
 
     /// The strokes of layer `number` of an object on the joints `drawn`; `lists` are reused.
@@ -422,11 +426,8 @@ impl Evaluator {
             clumps.resize(object.joints.end, NO_CLUMP);
             let own = clumps[object.joints.clone()].par_chunks_mut(CHUNK);
             own.enumerate().for_each(|(number, own)| {
-                let start = object.joints.start + number * CHUNK;
-                let range = start..start + own.len();
-                object.clump.for_each(joints, range, seed, |i, params| {
-                    own[i - start] = clump::Program::clump(joints, i, seed, params);
-                });
+                let first = object.joints.start + number * CHUNK;
+                object.clump.clumps(joints, first, seed, own);
             });
         }
         let Joints {
@@ -575,33 +576,50 @@ const NO_DISC: Disc = Disc {
     inv_depth_biased: 0.0,
 };
 
-/// A stroke's disc on the screen. Sizes in 1/300 of the head's height, the depth offset in head
-/// heights.
-///
-/// Against surfaces a stroke stands where its strand stands, less the radius of the clump there: the
-/// depth offset orders strands, and must not push an outline into the face behind it. Lines on surfaces are before all of them.
-fn disc_at(
-    frame: &Frame,
-    object: &Object,
-    joint: usize,
-    offset: Vec2,
-    radius: f32,
-    clump_radius: f32,
-    depth_offset: f32,
-) -> Disc {
-    let head = object.head;
-    let unit_m = head.unit_m();
-    let unit_px = unit_m * frame.paths.px_per_metre[joint];
-    // No depth is nearer than the near plane, whatever is taken from it.
-    let nearest = frame.camera.near_m();
-    let depth = frame.paths.depth[joint];
-    let shifted = (depth + depth_offset * head.height_m).max(nearest);
-    let biased = (depth - clump_radius * unit_m - object.surface_bias_m).max(nearest);
-    Disc {
-        center: frame.paths.center[joint] + offset * unit_px,
-        radius: (radius.max(0.0) * unit_px).min(LARGEST_PX),
-        inv_depth: 1.0 / shifted,
-        inv_depth_biased: 1.0 / biased,
+/// How discs of an object's strokes come to be on the screen.
+#[derive(Clone, Copy)]
+struct Sight {
+    /// A unit of size, 1/300 of the head's height, and the head's height, metres.
+    unit_m: f32,
+    height_m: f32,
+    surface_bias_m: f32,
+    /// No depth is nearer than the near plane, whatever is taken from it.
+    nearest_m: f32,
+}
+
+impl Sight {
+    fn of(frame: &Frame, object: &Object) -> Self {
+        Self {
+            unit_m: object.head.unit_m(),
+            height_m: object.head.height_m,
+            surface_bias_m: object.surface_bias_m,
+            nearest_m: frame.camera.near_m(),
+        }
+    }
+
+    /// A stroke's disc at a joint that is seen at `center` and has `depth`, of as many pixels a metre there. Sizes in 1/300 of the head's height, the
+    /// depth offset in head heights.
+    ///
+    /// Against surfaces a stroke stands where its strand stands, less the radius of the clump there: the
+    /// depth offset orders strands, and must not push an outline into the face behind it. Lines on surfaces are before all of them.
+    #[inline(always)] // into loops that are compiled for other instructions
+    fn disc(
+        &self,
+        (center, depth, px_per_metre): (Vec2, f32, f32),
+        offset: Vec2,
+        radius: f32,
+        clump_radius: f32,
+        depth_offset: f32,
+    ) -> Disc {
+        let unit_px = self.unit_m * px_per_metre;
+        let shifted = (depth + depth_offset * self.height_m).max(self.nearest_m);
+        let biased = (depth - clump_radius * self.unit_m - self.surface_bias_m).max(self.nearest_m);
+        Disc {
+            center: center + offset * unit_px,
+            radius: (radius.max(0.0) * unit_px).min(LARGEST_PX),
+            inv_depth: 1.0 / shifted,
+            inv_depth_biased: 1.0 / biased,
+        }
     }
 }
 

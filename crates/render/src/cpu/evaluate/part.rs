@@ -1,12 +1,12 @@
 //! A stroke of a layer on the strands of some neighbouring joints: evaluated where it is needed, smoothed, and put on the screen.
 
+use super::super::instructions::Instructions;
 use super::made::Made;
-use super::{LARGEST_PX, NOWHERE, disc_at, runs_of};
+use super::{LARGEST_PX, NO_DISC, Sight, runs_of};
 use crate::drawing::{Brush, Disc, Stretch};
 use crate::frame::{Frame, Object};
 use effects::smooth::{self, Smoother};
-use effects::wgsl::Stroke;
-use effects::{Joints, Layer};
+use effects::{Joints, Layer, Strokes};
 use glam::Vec2;
 use std::ops::Range;
 use stroke_path::PathRun;
@@ -14,7 +14,7 @@ use stroke_path::PathRun;
 /// A thread's working memory.
 #[derive(Default)]
 pub(super) struct Scratch {
-    strokes: Vec<Stroke>,
+    strokes: Strokes,
     /// Of a strand's joints.
     pub(super) radii: Vec<f32>,
     /// Where its stroke is drawn.
@@ -87,11 +87,10 @@ impl Part<'_> {
                 // Those beside, to which strokes taper, too.
                 let part = part.start.saturating_sub(1).max(run.joints.start)
                     ..(part.end + 1).min(run.joints.end);
-                strokes.resize(part.start - start, NO_STROKE);
+                strokes.resize(part.start - start);
                 program.evaluate(inputs, part.clone(), number, self.seed, strokes);
-                let own = &strokes[part.start - start..];
                 radii.resize(part.start - start, 0.0);
-                radii.extend(own.iter().map(|stroke| stroke.radius));
+                radii.extend_from_slice(&strokes.radius[part.start - start..]);
                 continue;
             }
             let extent = program.extent(inputs, part, number, self.seed);
@@ -123,42 +122,78 @@ impl Part<'_> {
             stretch.first = made.discs.len();
             let joints = stretch.joints.clone();
             let places = joints.start - start..joints.end - start;
-            let strokes = match is_direct {
-                true => &mut strokes[places.clone()],
+            let first = match is_direct {
+                true => places.start,
                 false => {
                     strokes.clear();
                     program.evaluate(inputs, joints.clone(), number, self.seed, strokes);
-                    &mut strokes[..]
+                    0
                 }
             };
-            for (stroke, radius) in strokes.iter_mut().zip(&radii[places]) {
-                stroke.radius = *radius;
-                drop_if_not_finite(stroke);
-            }
-            made.discs.extend(joints.zip(&*strokes).map(|(i, stroke)| {
-                let offset = inputs.clump_shift[i] + stroke.offset;
-                let offset = Vec2::new(offset.x, offset.y);
-                let lift = self.lift.get(i).copied().unwrap_or(0.0);
-                let depth_offset = layer.depth_offset + stroke.depth_offset - lift;
-                let clump_radius = inputs.clump_radius[i];
-                let radius = stroke.radius;
-                disc_at(
-                    frame,
-                    self.object,
-                    i,
-                    offset,
-                    radius,
-                    clump_radius,
-                    depth_offset,
-                )
-            }));
-            let colors = strokes.iter().map(|stroke| stroke.color.to_array());
-            made.colors.extend(colors);
+            self.push_discs(joints, &radii[places], strokes, first, made);
         }
         if frame.brush == Brush::Semicircle {
             self.go_around_flat_ends(pieces, &radii[..], drawn, &mut made.discs);
         }
         made.push_stretches(drawn);
+    }
+
+    /// Adds discs of these joints and radii, and their colours, which lie from `first` on in `strokes`. One that an effect failed to work out is not
+    /// drawn.
+    fn push_discs(
+        &self,
+        joints: Range<usize>,
+        radii: &[f32],
+        strokes: &Strokes,
+        first: usize,
+        made: &mut Made,
+    ) {
+        let Self { frame, inputs, .. } = self;
+        let (paths, count) = (frame.paths, joints.len());
+        let sight = Sight::of(frame, self.object);
+        let layer_offset = self.layer.depth_offset;
+        let of = first..first + count;
+        let (offsets, colors) = (&strokes.offset[of.clone()], &strokes.color[of.clone()]);
+        let depth_offsets = &strokes.depth_offset[of];
+        let (shifts, clump_radii) = (
+            &inputs.clump_shift[joints.clone()],
+            &inputs.clump_radius[joints.clone()],
+        );
+        let (centers, depths, px_per_metre) = (
+            &paths.center[joints.clone()],
+            &paths.depth[joints.clone()],
+            &paths.px_per_metre[joints.clone()],
+        );
+        let lifts = self.lift.get(joints);
+        let radii = &radii[..count];
+        let start = made.discs.len();
+        made.discs.resize(start + count, NO_DISC);
+        made.colors.resize(start + count, [0.0; 3]);
+        let (to_discs, to_colors) = (&mut made.discs[start..], &mut made.colors[start..]);
+        let (to_discs, to_colors) = (&mut to_discs[..count], &mut to_colors[..count]);
+        Instructions::best().run(
+            #[inline(always)]
+            || {
+                for k in 0..count {
+                    let [red, green, blue] = colors[k].to_array();
+                    let (x, y, depth_offset) = (offsets[k].x, offsets[k].y, depth_offsets[k]);
+                    let all = [x, y, radii[k], depth_offset, red, green, blue];
+                    let is_there = (all.iter()).fold(true, |all, number| all & number.is_finite());
+                    let or_nothing = |number: f32| if is_there { number } else { 0.0 };
+                    let offset =
+                        Vec2::new(shifts[k].x + or_nothing(x), shifts[k].y + or_nothing(y));
+                    let lift = lifts.map_or(0.0, |lifts| lifts[k]);
+                    to_discs[k] = sight.disc(
+                        (centers[k], depths[k], px_per_metre[k]),
+                        offset,
+                        or_nothing(radii[k]),
+                        clump_radii[k],
+                        layer_offset + or_nothing(depth_offset) - lift,
+                    );
+                    to_colors[k] = [red, green, blue].map(or_nothing);
+                }
+            },
+        );
     }
 
     /// Moves the tips of strokes that are wider than their clump on by what they are wider, or an outline
@@ -331,29 +366,5 @@ pub(super) fn leave_out_unneeded(needed: &[bool], joints: &Range<usize>, radii: 
     let needed = needed.get(joints.clone()).unwrap_or_default();
     for (radius, is_needed) in radii.iter_mut().zip(needed) {
         *radius = if *is_needed { *radius } else { 0.0 };
-    }
-}
-
-const NO_STROKE: Stroke = Stroke {
-    offset: effects::wgsl::Vec2 { x: 0.0, y: 0.0 },
-    radius: 0.0,
-    depth_offset: 0.0,
-    color: NOWHERE,
-};
-
-/// A stroke that an effect failed to work out is not drawn.
-fn drop_if_not_finite(stroke: &mut Stroke) {
-    let numbers = [
-        stroke.offset.x,
-        stroke.offset.y,
-        stroke.radius,
-        stroke.depth_offset,
-    ];
-    let all = numbers
-        .iter()
-        .chain(&stroke.color.to_array())
-        .all(|x| x.is_finite());
-    if !all {
-        *stroke = NO_STROKE;
     }
 }
