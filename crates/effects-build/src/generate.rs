@@ -335,9 +335,9 @@ fn program_items(source: &Source, params: &[Param]) -> TokenStream {
             let _ = (params, index, value);
         }
         #[inline(always)]
-        fn with_numbers(
+        fn with_numbers<const N: usize>(
             params: &Params,
-            numbers: &[[f32; ::effects::LANES]],
+            numbers: &[[f32; N]],
         ) -> impl Fn(usize) -> Params {
             let _ = (params, numbers);
             let params = *params;

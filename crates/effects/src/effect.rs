@@ -505,25 +505,21 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
     }
 
     fn paint_block(&self, samples: &SampleBlock, seed: u32, colors: &mut Vectors) {
-        let mut texels = Texels::NOTHING;
-        let mut lookups = Lookups::NOTHING;
-        if self.params.varies() {
-            if E::Program::PLACES {
-                self.params.for_each_sample(samples, seed, |i, params| {
-                    if let Some(lookup) = E::Program::place(samples, i, seed, params) {
-                        lookups.set(i, &lookup);
-                    }
-                });
-                lookups.look_up(&self.textures, &mut texels);
-            }
-            self.params.for_each_sample(samples, seed, |i, params| {
-                let color = E::Program::paint(samples, i, seed, texels.at(i), params);
-                colors.set(i, color);
-            });
-            return;
-        }
         let params = self.params.base();
+        let mut numbers = self.params.numbers();
+        let varying = self.params.varies().then(|| {
+            widest(
+                #[inline(always)]
+                || {
+                    let (u, strand) = (&samples.u, samples.seed);
+                    self.params.fill_at(&mut numbers, u, strand, seed);
+                },
+            );
+            &numbers[..]
+        });
+        let mut texels = Texels::NOTHING;
         if E::Program::PLACES {
+            let mut lookups = Lookups::NOTHING;
             widest(
                 #[inline(always)]
                 || {
@@ -531,11 +527,17 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
                         params,
                         #[inline(always)]
                         |params| {
-                            for i in 0..BLOCK {
-                                if let Some(lookup) = E::Program::place(samples, i, seed, params) {
-                                    lookups.set(i, &lookup);
-                                }
-                            }
+                            for_each_of_block::<E::Program>(
+                                params,
+                                varying,
+                                #[inline(always)]
+                                |i, params| {
+                                    let lookup = E::Program::place(samples, i, seed, params);
+                                    if let Some(lookup) = lookup {
+                                        lookups.set(i, &lookup);
+                                    }
+                                },
+                            );
                         },
                     );
                 },
@@ -549,10 +551,16 @@ impl<E: StrokeEffect> LayerProgram for WithParams<E> {
                     params,
                     #[inline(always)]
                     |params| {
-                        for i in 0..BLOCK {
-                            let color = E::Program::paint(samples, i, seed, texels.at(i), params);
-                            colors.set(i, color);
-                        }
+                        for_each_of_block::<E::Program>(
+                            params,
+                            varying,
+                            #[inline(always)]
+                            |i, params| {
+                                let texel = texels.at(i);
+                                let color = E::Program::paint(samples, i, seed, texel, params);
+                                colors.set(i, color);
+                            },
+                        );
                     },
                 );
             },
@@ -622,5 +630,24 @@ impl<E: StrokeEffect> WithParams<E> {
             );
             list.append(&block, some.len());
         }
+    }
+}
+
+/// Calls `each` with every sample of a block and its parameters, of which some may vary: then there are `numbers` of the samples.
+#[inline(always)]
+fn for_each_of_block<P: Parameters>(
+    params: &P::Params,
+    numbers: Option<&[[f32; BLOCK]]>,
+    mut each: impl FnMut(usize, &P::Params),
+) {
+    let Some(numbers) = numbers else {
+        for i in 0..BLOCK {
+            each(i, params);
+        }
+        return;
+    };
+    let params = P::with_numbers(params, numbers);
+    for i in 0..BLOCK {
+        each(i, &params(i));
     }
 }

@@ -1,6 +1,6 @@
 //! What the translated code of an effect, or of the clump, implements.
 
-use crate::joints::{Input, Joints, LANES};
+use crate::joints::{Input, Joints};
 use crate::param::{Param, Values};
 use crate::samples::{SampleBlock, SampleInput};
 use crate::wgsl::{Lookup, Stroke, Vec3, Vec4, vec2, vec3};
@@ -22,11 +22,11 @@ pub trait Parameters: Send + Sync + 'static {
     fn set_number(params: &mut Self::Params, index: usize, value: f32) {
         let _ = (params, index, value);
     }
-    /// The parameters of each joint of a block, with those `numbers`: a row for each of [`Self::PARAMS`], of which those that are no numbers are not looked at.
+    /// The parameters of each joint or sample of a block, with those `numbers`: a row for each of [`Self::PARAMS`], of which those that are no numbers are not looked at.
     #[inline(always)]
-    fn with_numbers(
+    fn with_numbers<const N: usize>(
         params: &Self::Params,
-        numbers: &[[f32; LANES]],
+        numbers: &[[f32; N]],
     ) -> impl Fn(usize) -> Self::Params {
         |lane| {
             let mut params = params.clone();

@@ -1,10 +1,8 @@
 //! A program's parameters, of which some vary along a strand and from strand to strand.
 
 use crate::joints::{Input, InputSet, Joints, LANES, block};
-use crate::lanes::widest;
 use crate::param::{Param, ParamKind, Value, Values};
 use crate::program::Parameters;
-use crate::samples::{BLOCK, SampleBlock};
 use crate::seed::layer_seed;
 use crate::source::{self, ProgramSource};
 use crate::variation::Varying;
@@ -16,8 +14,8 @@ use std::ops::Range;
 pub struct Varied<P: Parameters> {
     base: P::Params,
     varying: Vec<Varying>,
-    /// Where any varies, those of a block where nothing does: [`Parameters::with_numbers`].
-    numbers: Vec<[f32; LANES]>,
+    /// Where any varies, what all are where nothing does.
+    numbers: Vec<f32>,
     /// For a graphics card: [`ProgramSource::words`] and [`ProgramSource::varying`].
     words: Vec<u32>,
     indices: Vec<usize>,
@@ -125,10 +123,10 @@ impl<P: Parameters> Varied<P> {
         }
     }
 
-    /// The numbers of a block's joints where nothing varies.
+    /// The numbers of a block of joints or samples where nothing varies: [`Parameters::with_numbers`].
     #[inline]
-    pub(crate) fn numbers(&self) -> Vec<[f32; LANES]> {
-        self.numbers.clone()
+    pub(crate) fn numbers<const N: usize>(&self) -> Vec<[f32; N]> {
+        self.numbers.iter().map(|number| [*number; N]).collect()
     }
 
     /// Sets those that vary of the block from joint `first` on. `seed` is the layer's.
@@ -140,51 +138,32 @@ impl<P: Parameters> Varied<P> {
         first: usize,
         seed: u32,
     ) {
-        let u = block(&joints.u, first);
-        let mut strand = block(&joints.seed, first);
+        let (u, strand) = (block(&joints.u, first), block(&joints.seed, first));
+        self.fill_at(numbers, &u, strand, seed);
+    }
+
+    /// The same at places along strands, of these parts of their seeds.
+    #[inline(always)]
+    pub(crate) fn fill_at<const N: usize>(
+        &self,
+        numbers: &mut [[f32; N]],
+        u: &[f32; N],
+        mut strand: [u32; N],
+        seed: u32,
+    ) {
         for strand in &mut strand {
             *strand = hash(seed ^ *strand);
         }
         for varying in &self.varying {
-            numbers[varying.index] = varying.at_all(&u, &strand);
-        }
-    }
-
-    /// [`Self::for_each`] of the samples of a block.
-    #[inline]
-    pub fn for_each_sample(
-        &self,
-        samples: &SampleBlock,
-        seed: u32,
-        mut evaluate: impl FnMut(usize, &P::Params),
-    ) {
-        let mut strand = samples.seed;
-        for strand in &mut strand {
-            *strand = hash(seed ^ *strand);
-        }
-        let values = |varying: &Varying| {
-            let mut values = [0.0; BLOCK];
-            widest(
-                #[inline(always)]
-                || values = varying.at_all(&samples.u, &strand),
-            );
-            (varying.index, values)
-        };
-        let values: Vec<(usize, [f32; BLOCK])> = self.varying.iter().map(values).collect();
-        let mut params = self.base.clone();
-        for i in 0..BLOCK {
-            for (index, values) in &values {
-                P::set_number(&mut params, *index, values[i]);
-            }
-            evaluate(i, &params);
+            numbers[varying.index] = varying.at_all(u, &strand);
         }
     }
 }
 
-/// What a parameter is of a block's joints where it doesn't vary, if it is a number.
-fn number(param: &Param, values: &Values) -> [f32; LANES] {
+/// What a parameter is where it doesn't vary, if it is a number.
+fn number(param: &Param, values: &Values) -> f32 {
     match param.kind {
-        ParamKind::Number { .. } => [values.number(param.name); LANES],
-        _ => [0.0; LANES],
+        ParamKind::Number { .. } => values.number(param.name),
+        _ => 0.0,
     }
 }
