@@ -321,6 +321,7 @@ fn program_items(source: &Source, params: &[Param]) -> TokenStream {
         is_number.then(|| (index, format_ident!("{}", param.name)))
     });
     let (rows, names): (Vec<usize>, Vec<_>) = rows.unzip();
+    let others = (rows.len() < params.len()).then(|| quote!(..params));
     quote! {
         type Params = Params;
         const PARAMS: &'static [::effects::Param] = &[#(#table),*];
@@ -344,7 +345,7 @@ fn program_items(source: &Source, params: &[Param]) -> TokenStream {
             #(let #names = numbers[#rows];)*
             move |lane| {
                 let _ = (lane, params);
-                Params { #(#names: #names[lane],)* ..params }
+                Params { #(#names: #names[lane],)* #others }
             }
         }
     }
