@@ -316,11 +316,18 @@ fn program_items(source: &Source, params: &[Param]) -> TokenStream {
         let is_number = matches!(param.kind, Kind::Number { .. });
         is_number.then(|| quote!(if index == #index { params.#field = value; }))
     });
-    let rows = params.iter().enumerate().filter_map(|(index, param)| {
-        let is_number = matches!(param.kind, Kind::Number { .. });
-        is_number.then(|| (index, format_ident!("{}", param.name)))
-    });
-    let (rows, names): (Vec<usize>, Vec<_>) = rows.unzip();
+    let (mut rows, mut of_lane) = (Vec::new(), Vec::new());
+    for (index, param) in params.iter().enumerate() {
+        if let Kind::Number { .. } = param.kind {
+            let (field, row) = (
+                format_ident!("{}", param.name),
+                format_ident!("row_{}", param.name),
+            );
+            rows.push(quote!(let #row = numbers[#index];));
+            of_lane.push(quote!(#field: #row[lane],));
+        }
+    }
+    let others = (rows.len() < params.len()).then(|| quote!(..params));
     quote! {
         type Params = Params;
         const PARAMS: &'static [::effects::Param] = &[#(#table),*];
@@ -341,10 +348,10 @@ fn program_items(source: &Source, params: &[Param]) -> TokenStream {
         ) -> impl Fn(usize) -> Params {
             let _ = (params, numbers);
             let params = *params;
-            #(let #names = numbers[#rows];)*
+            #(#rows)*
             move |lane| {
                 let _ = (lane, params);
-                Params { #(#names: #names[lane],)* ..params }
+                Params { #(#of_lane)* #others }
             }
         }
     }

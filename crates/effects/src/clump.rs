@@ -15,12 +15,12 @@ impl Varied<Program> {
         let mut numbers = self.numbers();
         // A row for each number of a clump, so that vector instructions store them.
         let mut rows = [[0.0; LANES]; 10];
-        for (k, clumps) in clumps.chunks_mut(LANES).enumerate() {
-            let first = first + k * LANES;
-            let block = first..first + clumps.len();
-            widest(
-                #[inline(always)]
-                || {
+        widest(
+            #[inline(always)]
+            || {
+                for (k, clumps) in clumps.chunks_mut(LANES).enumerate() {
+                    let first = first + k * LANES;
+                    let block = first..first + clumps.len();
                     if self.varies() {
                         self.fill(&mut numbers, joints, first, seed);
                         let params = Program::with_numbers(self.base(), &numbers);
@@ -43,19 +43,12 @@ impl Varied<Program> {
                             |lane, clump| put(&mut rows, lane, clump),
                         );
                     }
-                },
-            );
-            for (lane, clump) in clumps.iter_mut().enumerate() {
-                let triple =
-                    |row: usize| vec3([rows[row][lane], rows[row + 1][lane], rows[row + 2][lane]]);
-                *clump = Clump {
-                    normal: triple(0),
-                    radius: rows[9][lane],
-                    color: triple(3),
-                    shift: triple(6),
-                };
-            }
-        }
+                    for (lane, clump) in clumps.iter_mut().enumerate() {
+                        *clump = take(&rows, lane);
+                    }
+                }
+            },
+        );
     }
 }
 
@@ -69,4 +62,16 @@ fn put(rows: &mut [[f32; LANES]; 10], lane: usize, clump: Clump) {
         rows[3 * k + 2][lane] = triple.z;
     }
     rows[9][lane] = clump.radius;
+}
+
+/// The clump that these rows have.
+#[inline(always)]
+fn take(rows: &[[f32; LANES]; 10], lane: usize) -> Clump {
+    let triple = |row: usize| vec3([rows[row][lane], rows[row + 1][lane], rows[row + 2][lane]]);
+    Clump {
+        normal: triple(0),
+        color: triple(3),
+        shift: triple(6),
+        radius: rows[9][lane],
+    }
 }

@@ -589,47 +589,48 @@ impl<E: StrokeEffect> WithParams<E> {
         seed: u32,
         list: &mut T,
     ) {
-        let mut block = T::NOTHING;
+        let params = self.params.base();
         let mut numbers = self.params.numbers();
-        for first in range.clone().step_by(LANES) {
-            let some = first..range.end.min(first + LANES);
-            widest(
-                #[inline(always)]
-                || {
+        let mut taken = T::NOTHING;
+        let blocks = (range.clone().step_by(LANES)).map(|i| i..range.end.min(i + LANES));
+        widest(
+            #[inline(always)]
+            || {
+                for block in blocks {
                     if self.params.varies() {
-                        self.params.fill(&mut numbers, joints, first, seed);
-                        let params = E::Program::with_numbers(self.params.base(), &numbers);
+                        self.params.fill(&mut numbers, joints, block.start, seed);
+                        let params = E::Program::with_numbers(params, &numbers);
                         E::Program::strokes(
                             joints,
-                            some.clone(),
+                            block.clone(),
                             instance,
                             seed,
                             params,
                             #[inline(always)]
-                            |lane, stroke| T::put(&mut block, lane, stroke),
+                            |lane, stroke| T::put(&mut taken, lane, stroke),
                         );
-                        return;
+                    } else {
+                        E::Program::knowing_stroke(
+                            params,
+                            #[inline(always)]
+                            |params| {
+                                E::Program::strokes(
+                                    joints,
+                                    block.clone(),
+                                    instance,
+                                    seed,
+                                    #[inline(always)]
+                                    |_| params.clone(),
+                                    #[inline(always)]
+                                    |lane, stroke| T::put(&mut taken, lane, stroke),
+                                );
+                            },
+                        );
                     }
-                    E::Program::knowing_stroke(
-                        self.params.base(),
-                        #[inline(always)]
-                        |params| {
-                            E::Program::strokes(
-                                joints,
-                                some.clone(),
-                                instance,
-                                seed,
-                                #[inline(always)]
-                                |_| params.clone(),
-                                #[inline(always)]
-                                |lane, stroke| T::put(&mut block, lane, stroke),
-                            );
-                        },
-                    );
-                },
-            );
-            list.append(&block, some.len());
-        }
+                    list.append(&taken, block.len());
+                }
+            },
+        );
     }
 }
 

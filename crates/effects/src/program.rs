@@ -1,7 +1,7 @@
 //! What the translated code of an effect, or of the clump, implements.
 
 use crate::joints::{Input, Joints};
-use crate::param::{Param, Values};
+use crate::param::{Param, ParamKind, Values};
 use crate::samples::{SampleBlock, SampleInput};
 use crate::wgsl::{Lookup, Stroke, Vec3, Vec4, vec2, vec3};
 use std::ops::Range;
@@ -18,7 +18,7 @@ pub trait Parameters: Send + Sync + 'static {
     const WGSL: &'static str;
     /// The parameters of these values; what varies has its value at the root.
     fn params(values: &Values) -> Self::Params;
-    /// Sets number `index` of [`Self::PARAMS`]. Only asked for numbers that vary.
+    /// Sets number `index` of [`Self::PARAMS`].
     fn set_number(params: &mut Self::Params, index: usize, value: f32) {
         let _ = (params, index, value);
     }
@@ -28,10 +28,12 @@ pub trait Parameters: Send + Sync + 'static {
         params: &Self::Params,
         numbers: &[[f32; N]],
     ) -> impl Fn(usize) -> Self::Params {
-        |lane| {
+        move |lane| {
             let mut params = params.clone();
-            for (index, row) in numbers.iter().enumerate() {
-                Self::set_number(&mut params, index, row[lane]);
+            for (index, (param, row)) in Self::PARAMS.iter().zip(numbers).enumerate() {
+                if let ParamKind::Number { .. } = param.kind {
+                    Self::set_number(&mut params, index, row[lane]);
+                }
             }
             params
         }

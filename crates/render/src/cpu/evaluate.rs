@@ -5,6 +5,7 @@ mod part;
 
 use self::made::{Made, put_together};
 use self::part::{Part, Scratch, find_stretches, leave_out, leave_out_unneeded};
+use super::instructions::Instructions;
 use super::seen::{Needed, Seen};
 use crate::drawing::{Disc, Drawing, LayerStrokes, Run, Stretches};
 use crate::features::{DrawnFeatures, Feature};
@@ -252,7 +253,9 @@ impl Evaluator {
         let layer = &object.layers[number];
         self.fill_unit(frame, object.head, drawn, layer.units);
         let instances = layer.program.instances();
+        let instructions = Instructions::best();
         let part = |joints| Part {
+            instructions,
             frame,
             object,
             layer,

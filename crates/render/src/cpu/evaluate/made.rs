@@ -23,6 +23,12 @@ impl Made {
         }
     }
 
+    /// Makes room for as many discs: lists that grow are moved.
+    pub(super) fn reserve(&mut self, discs: usize) {
+        self.discs.reserve(discs);
+        self.colors.reserve(discs);
+    }
+
     /// Numbers the discs of all stretches one behind the other.
     pub(super) fn number_discs(&mut self) {
         let mut first = 0;

@@ -27,6 +27,7 @@ pub(super) struct Scratch {
 
 /// Some neighbouring joints of a layer.
 pub(super) struct Part<'a> {
+    pub(super) instructions: Instructions,
     pub(super) frame: &'a Frame<'a>,
     pub(super) object: &'a Object<'a>,
     pub(super) layer: &'a Layer,
@@ -51,6 +52,9 @@ impl Part<'_> {
             return made;
         }
         let is_direct = self.is_mostly_there(number, scratch);
+        if is_direct {
+            made.reserve(self.joints.len());
+        }
         for pieces in self.strands() {
             let joints = pieces[0].joints.start..pieces[pieces.len() - 1].joints.end;
             let strand = &self.frame.strands[pieces[0].strand];
@@ -171,7 +175,7 @@ impl Part<'_> {
         made.colors.resize(start + count, [0.0; 3]);
         let (to_discs, to_colors) = (&mut made.discs[start..], &mut made.colors[start..]);
         let (to_discs, to_colors) = (&mut to_discs[..count], &mut to_colors[..count]);
-        Instructions::best().run(
+        self.instructions.run(
             #[inline(always)]
             || {
                 for k in 0..count {
