@@ -74,23 +74,23 @@ impl Evaluator {
         frame.check()?;
         let threads = rayon::current_num_threads();
         self.scratches.resize_with(threads, Mutex::default);
-        let read = inputs(frame);
-        self.fill_inputs(frame, read);
-        self.fill_clumps(frame, read);
-        self.fill_seen_length(frame);
-        self.fill_lift(frame);
-        self.needed.clear();
-        self.fill_clump_discs(frame, &mut drawing.clump);
-        if !self.is_everywhere {
-            let Self {
-                seen,
-                needed,
-                samples,
-                ..
-            } = self;
-            seen.find(frame, &self.joints, (&drawing.clump, samples), needed);
-            leave_out(&needed.all, &mut drawing.clump);
-        }
+        let Drawing {
+            clump,
+            surfaces,
+            mesh_painting,
+            brushwork,
+            same_strands,
+            ..
+        } = &mut *drawing;
+        rayon::join(
+            || {
+                surfaces.clone_from(&frame.surfaces);
+                mesh_painting.fill(frame);
+                brushwork.fill(frame);
+                crate::frame::fill_same_strands(frame, same_strands);
+            },
+            || self.fill_joints(frame, clump),
+        );
 
         drawing.size = frame.camera.size_px();
         drawing.background = frame.background;
@@ -98,7 +98,6 @@ impl Evaluator {
         drawing.edge_depth_m = frame.edge_depth_m;
         drawing.brush = frame.brush;
         drawing.passes.clone_from(&frame.passes);
-        drawing.surfaces.clone_from(&frame.surfaces);
         drawing.runs.clear();
         drawing.runs.extend(frame.paths.runs.iter().map(|run| Run {
             strand: run.piece as u32,
@@ -107,11 +106,8 @@ impl Evaluator {
         self.fill_sides(frame, drawing);
 
         self.fill_features(frame, &mut drawing.features);
-        drawing.brushwork.fill(frame);
         drawing.painting.fill(frame, &self.joints);
-        drawing.mesh_painting.fill(frame);
         drawing.decals.clone_from(&frame.decals);
-        crate::frame::fill_same_strands(frame, &mut drawing.same_strands);
 
         let mut spare = std::mem::take(&mut drawing.layers).into_iter();
         for object in &frame.objects {
@@ -139,6 +135,27 @@ impl Evaluator {
             self.clumps = Vec::new();
         }
         Ok(())
+    }
+
+    /// All that layers are told of joints, and the discs of all clumps, of those that make a difference.
+    fn fill_joints(&mut self, frame: &Frame, clump: &mut Vec<Disc>) {
+        let read = inputs(frame);
+        self.fill_inputs(frame, read);
+        self.fill_clumps(frame, read);
+        self.fill_seen_length(frame);
+        self.fill_lift(frame);
+        self.needed.clear();
+        self.fill_clump_discs(frame, clump);
+        if !self.is_everywhere {
+            let Self {
+                seen,
+                needed,
+                samples,
+                ..
+            } = self;
+            seen.find(frame, &self.joints, (clump, samples), needed);
+            leave_out(&needed.all, clump);
+        }
     }
 
     /// The discs of all clumps.
