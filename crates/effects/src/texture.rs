@@ -152,10 +152,21 @@ impl Lookups {
     /// Looks up what each sample finds in a picture.
     #[inline(always)]
     fn look_up_in(&self, image: &Image, repeats: bool, texels: &mut Texels) {
-        for index in 0..BLOCK {
-            let place = [self.x[index], self.y[index]].map(finite);
-            let [x, y, z, w] = image.at(place, self.size[index], repeats);
-            texels.set(index, Vec4 { x, y, z, w });
+        const SOME: usize = 16;
+        let (x, _) = self.x.as_chunks::<SOME>();
+        let (y, _) = self.y.as_chunks::<SOME>();
+        let (size, _) = self.size.as_chunks::<SOME>();
+        for (chunk, ((x, y), size)) in x.iter().zip(y).zip(size).enumerate() {
+            let (mut x, mut y) = (*x, *y);
+            for place in [&mut x, &mut y] {
+                for place in place {
+                    *place = finite(*place);
+                }
+            }
+            let found = image.at_all([&x, &y], size, repeats);
+            for (k, [x, y, z, w]) in found.into_iter().enumerate() {
+                texels.set(chunk * SOME + k, Vec4 { x, y, z, w });
+            }
         }
     }
 }
@@ -163,5 +174,5 @@ impl Lookups {
 /// A number of a place; 0 where it isn't finite.
 #[inline(always)]
 fn finite(x: f32) -> f32 {
-    if x.is_finite() { x } else { 0.0 }
+    choose(x.is_finite(), x, 0.0)
 }

@@ -126,6 +126,83 @@ impl Image {
         self.blurred(size).at(place, repeats)
     }
 
+    /// [`Self::at`] of several places, blurred over a size each: all but the texels by loops that compile to vector instructions.
+    #[inline(always)] // into loops that are compiled for other instructions than their crate
+    pub(crate) fn at_all<const N: usize>(
+        &self,
+        [x, y]: [&[f32; N]; 2],
+        size: &[f32; N],
+        repeats: bool,
+    ) -> [[f32; 4]; N] {
+        let last = (self.levels.len() - 1) as f32;
+        let whole_width = self.size()[0] as f32;
+        let (mut finer, mut share) = ([0; N], [0.0; N]);
+        let mut is_mixed = false;
+        for k in 0..N {
+            let texels = most(size[k], 0.0) * whole_width;
+            let level = least(log_to_two_from_one(most(texels, 1.0)), last);
+            let whole = level.floor();
+            finer[k] = index(whole);
+            share[k] = level - whole;
+            is_mixed |= share[k] > 0.0;
+        }
+        let mut texels = self.between_all(&finer, [x, y], repeats);
+        if is_mixed {
+            let mut coarser = finer;
+            for k in 0..N {
+                // Where nothing comes of it that one again, which is there.
+                coarser[k] += u32::from(share[k] > 0.0);
+            }
+            let others = self.between_all(&coarser, [x, y], repeats);
+            for (k, (texel, other)) in texels.iter_mut().zip(others).enumerate() {
+                for channel in 0..4 {
+                    texel[channel] += (other[channel] - texel[channel]) * share[k];
+                }
+            }
+        }
+        for texel in &mut texels {
+            *texel = straight(*texel);
+        }
+        texels
+    }
+
+    /// Each place between the four nearest texels of one of the copies.
+    #[inline(always)]
+    fn between_all<const N: usize>(
+        &self,
+        levels: &[u32; N],
+        [x, y]: [&[f32; N]; 2],
+        repeats: bool,
+    ) -> [[f32; 4]; N] {
+        let mut sides = [[0.0; N]; 2];
+        for k in 0..N {
+            let [width, height] = self.levels[levels[k] as usize].size;
+            (sides[0][k], sides[1][k]) = (width as f32, height as f32);
+        }
+        let (mut first, mut second, mut shares) = ([[0; N]; 2], [[0; N]; 2], [[0.0; N]; 2]);
+        for (axis, places) in [x, y].into_iter().enumerate() {
+            for k in 0..N {
+                let [before, after, part] = nearest(places[k], sides[axis][k], repeats);
+                shares[axis][k] = part;
+                (first[axis][k], second[axis][k]) = (index(before), index(after));
+            }
+        }
+        for k in 0..N {
+            let width = index(sides[0][k]);
+            first[1][k] = first[1][k].wrapping_mul(width);
+            second[1][k] = second[1][k].wrapping_mul(width);
+        }
+        // By way of memory: compilers would work out some by themselves where they are needed, in place of all at once.
+        let (first, second, shares) = black_box((first, second, shares));
+        let mut texels = [[0.0; 4]; N];
+        for (k, texel) in texels.iter_mut().enumerate() {
+            let [across, down] = [0, 1].map(|axis| [first[axis][k], second[axis][k]]);
+            let level = &self.levels[levels[k] as usize];
+            *texel = level.between(across, down, [shares[0][k], shares[1][k]]);
+        }
+        texels
+    }
+
     /// The picture blurred over `size` of its width, for many places.
     #[inline(always)] // into loops that are compiled for other instructions than their crate
     #[must_use]
@@ -225,18 +302,24 @@ impl Blurred<'_> {
                 texel[channel] += (other[channel] - texel[channel]) * part;
             }
         }
-        let alpha = texel[3];
-        if alpha <= 0.0 {
-            return [0.0; 4];
-        }
-        // All four, or they would be worked out as two and one.
-        let mut color = [0.0; 4];
-        for channel in 0..4 {
-            color[channel] = texel[channel] / alpha;
-        }
-        let [red, green, blue, _] = color;
-        [red, green, blue, alpha]
+        straight(texel)
     }
+}
+
+/// Colour and coverage of a texel whose colour is multiplied by its coverage.
+#[inline(always)]
+fn straight(texel: [f32; 4]) -> [f32; 4] {
+    let alpha = texel[3];
+    if alpha <= 0.0 {
+        return [0.0; 4];
+    }
+    // All four, or they would be worked out as two and one.
+    let mut color = [0.0; 4];
+    for channel in 0..4 {
+        color[channel] = texel[channel] / alpha;
+    }
+    let [red, green, blue, _] = color;
+    [red, green, blue, alpha]
 }
 
 /// The one or the other, both worked out: a branch would keep a loop from compiling to vector instructions.
@@ -531,6 +614,22 @@ mod tests {
                 false => [0.0; 4],
             };
             prop_assert_eq!(blurred.at(place, repeats), expected);
+        }
+
+        /// Several places are each by itself, to the last bit, whichever copies they are of.
+        #[test]
+        fn places_of_a_block_are_each_by_itself(
+            x in prop::array::uniform16(-1.5..1.5_f32),
+            y in prop::array::uniform16(prop_oneof![-1e4..1e4_f32, -0.1..1.1_f32]),
+            size in prop::array::uniform16(prop_oneof![Just(0.0_f32), -1.0..2.0_f32, Just(f32::NAN)]),
+            repeats: bool,
+        ) {
+            let texels: Vec<[u16; 4]> = (0..35).map(|i| [i * 1800, 60_000 - i * 900, i % 7 * 9000, i % 3 * 32_000]).collect();
+            let image = image([7, 5], &texels);
+            let found = image.at_all([&x, &y], &size, repeats);
+            for k in 0..16 {
+                prop_assert_eq!(found[k], image.at([x[k], y[k]], size[k], repeats));
+            }
         }
     }
 
