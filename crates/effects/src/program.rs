@@ -59,7 +59,7 @@ pub trait Program: Parameters {
         }
     }
 
-    /// [`Self::stroke`] of a block's joints, [`LANES`] at most, in a loop that compiles to vector instructions: `give` gets the number of each joint, from 0
+    /// [`Self::stroke`] of a block's joints, [`LANES`](crate::LANES) at most, in a loop that compiles to vector instructions: `give` gets the number of each joint, from 0
     /// on, with its disc, and `params` tells its parameters. What it gets of more joints than these is anything.
     #[inline(always)]
     fn strokes(
