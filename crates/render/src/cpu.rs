@@ -500,6 +500,20 @@ impl Worker {
         }
     }
 
+    /// Draws the samples of the tile at `origin`, where one stack holds all of a pixel, or all that are asked for; what they show is noted.
+    fn draw_samples_of_tile(
+        &mut self,
+        frame: &Frame,
+        tile: usize,
+        triangles: &[u32],
+        origin: [usize; 2],
+    ) {
+        let scene = frame.tile_at(origin);
+        self.find_strands(frame, &scene, tile);
+        self.draw_stack::<true>(frame, &scene, tile, triangles);
+        self.color_stack(frame, &scene, tile);
+    }
+
     /// Adds the samples that are drawn, of such a stack, to the sums of their pixels.
     fn add_up(&mut self, frame: &Frame, stack: &Stack) {
         let is_opaque = frame.drawing.background.is_some();

@@ -151,10 +151,7 @@ impl Worker {
                 frame.fill(output.pixels, columns);
                 continue;
             }
-            let scene = frame.tile_at([left, top]);
-            self.find_strands(frame, &scene, tile);
-            self.draw_stack::<true>(frame, &scene, tile, triangles);
-            self.color_stack(frame, &scene, tile);
+            self.draw_samples_of_tile(frame, tile, triangles, [left, top]);
             frame.instructions.run(
                 #[inline(always)]
                 || self.tell_ribbon(frame, &columns, &mut ribbon),

@@ -145,10 +145,7 @@ impl Worker {
             }
             planes.clear(nothing, height - top, frame.drawing.background);
             nothing = left + size[0]..left + size[0];
-            let scene = frame.tile_at([left, top]);
-            self.find_strands(frame, &scene, tile);
-            self.draw_stack::<true>(frame, &scene, tile, triangles);
-            self.color_stack(frame, &scene, tile);
+            self.draw_samples_of_tile(frame, tile, triangles, [left, top]);
             frame.instructions.run(
                 #[inline(always)]
                 || self.tell(frame, size, left, &mut planes),
