@@ -174,12 +174,19 @@ pub const STAGES: [&str; 8] = [
     "gpu:upload",
 ];
 
-/// A frame's times in the order of [`STAGES`]. `before` is what comes before drawing, on both backends.
+/// How many of [`STAGES`] are the CPU's.
+pub const CPU_STAGES: usize = 3;
+
+/// A frame's times on the CPU, the first of [`STAGES`]. `before` is what comes before drawing, on both backends.
 #[must_use]
-pub fn of_stages(before: f64, cpu: CpuTimes, card: Option<CardTimes>) -> Vec<f64> {
-    let mut times = vec![before + cpu.effects + cpu.raster, cpu.effects, cpu.raster];
-    let Some(card) = card else { return times };
-    times.push(before + card.whole);
+pub fn cpu_stages(before: f64, cpu: CpuTimes) -> [f64; CPU_STAGES] {
+    [before + cpu.effects + cpu.raster, cpu.effects, cpu.raster]
+}
+
+/// A frame's times with a card, what follows in [`STAGES`].
+#[must_use]
+pub fn card_stages(before: f64, card: CardTimes) -> Vec<f64> {
+    let mut times = vec![before + card.whole];
     if let Some(stages) = card.stages {
         times.extend(stages);
         times.push(card.whole - stages.iter().sum::<f64>());

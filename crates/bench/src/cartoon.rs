@@ -112,12 +112,12 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
     };
     let registry = frame::registry()?;
     let frames = if options.quick { 8 } else { 60 };
+    let mut backends = Backends::new(SAMPLES, options.card)?;
     for look in LOOKS {
         for subject in &SUBJECTS {
             let name = format!("{}: {look}", subject.name);
             progress.set_message(name.clone());
             let mut stage = subject.open(&options.root, look, &registry)?;
-            let mut backends = Backends::new(SAMPLES, options.card)?;
             let rows =
                 pool.install(|| frame::look(&name, SAMPLES, &mut stage, &mut backends, frames))?;
             for method in ["cpu", "gpu"] {

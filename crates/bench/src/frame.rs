@@ -3,13 +3,16 @@
 //! Camera and hair move, so that nothing can be reused.
 
 use crate::BenchError;
-use crate::backends::{Backends, Card, STAGES, Times, of_stages, rows, share_that_differs};
+use crate::backends::{
+    Backends, CPU_STAGES, Card, STAGES, Times, card_stages, cpu_stages, rows, share_that_differs,
+};
 use crate::character;
 use crate::results::{self, Row};
 use crate::targets::{Found, Limit, Target};
 use crate::timing::Effort;
 use effects::Registry;
 use indicatif::ProgressBar;
+use render::Frame;
 use stage::{Files, Preset, Stage};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -28,6 +31,8 @@ const SIZES: [[u32; 2]; 4] = [[480, 360], [960, 720], [1920, 1440], [3840, 2880]
 const MORE_SAMPLES: [u32; 2] = [8, 16];
 /// Frames that are drawn before any is counted.
 const WARM_UP: u32 = 3;
+/// The same with a card, whose clock goes up slowly.
+const CARD_WARM_UP: u32 = 60;
 
 /// What the user asks for.
 #[derive(Clone, Debug)]
@@ -139,6 +144,9 @@ fn whole_frames(
         card: None,
     };
     let pool = options.pool()?;
+    // One for all looks, as in a program that shows one after the other: a driver may give no more than some dozens of devices.
+    let mut backends = Backends::new(SAMPLES, options.card)?;
+    measured.card = backends.card_name();
     for preset in presets {
         let name = preset
             .file_stem()
@@ -147,7 +155,6 @@ fn whole_frames(
             .into_owned();
         progress.set_message(name.clone());
         let mut stage = open(preset, &options.root, size)?;
-        let mut backends = Backends::new(SAMPLES, options.card)?;
         let frames = options.frames();
         let rows = pool.install(|| look(&name, SAMPLES, &mut stage, &mut backends, frames))?;
         let simulate = rows.iter().find(|row| row.method == BEFORE[0]);
@@ -165,7 +172,6 @@ fn whole_frames(
             }));
         }
         measured.rows.extend(rows);
-        measured.card = backends.card_name();
         progress.inc(1);
     }
     Ok(measured)
@@ -304,7 +310,8 @@ fn open(path: &Path, root: &Path, size: Option<[u32; 2]>) -> Result<Stage, Bench
 /// What comes before drawing, on both backends.
 const BEFORE: [&str; 2] = ["simulate", "paths"];
 
-/// Rows of so many frames of a stage, 1/60 s apart, seen by a camera that goes round.
+/// Rows of so many frames of a stage on the CPU, then of as many on the card, where there is one. Alone it has enough to do to keep its
+/// clock up: between pictures of the CPU it would rest, and take four times as long.
 pub(crate) fn look(
     name: &str,
     samples: u32,
@@ -313,36 +320,62 @@ pub(crate) fn look(
     frames: u32,
 ) -> Result<Vec<Row>, BenchError> {
     let mut times = vec![Times::default(); BEFORE.len() + STAGES.len()];
-    let mut error = None;
-    for number in 0..WARM_UP + frames {
-        let time = f64::from(number) / FPS;
-        let start = Instant::now();
-        // The camera orbits by 30 degrees a second.
-        stage.scene.camera.yaw = (30.0 * time) as f32;
-        stage.advance_to(time as f32).map_err(|e| e.to_string())?;
-        let simulate = start.elapsed().as_secs_f64();
-        let frame = stage.frame().map_err(|e| e.to_string())?;
-        let paths = start.elapsed().as_secs_f64() - simulate;
-        let (picture, cpu) = backends.on_cpu(&frame)?;
-        let card = backends.on_card(&frame)?;
-        if number >= WARM_UP
-            && let Some((by_card, _)) = &card
-        {
-            error = Some(share_that_differs(&picture, by_card));
-        }
-        backends.give_back(picture);
-        if number < WARM_UP {
-            continue;
-        }
-        let before = simulate + paths;
-        let mut found = vec![simulate, paths];
-        found.extend(of_stages(before, cpu, card.map(|(_, times)| times)));
+    let (before, drawing) = times.split_at_mut(BEFORE.len());
+    let (on_cpu, on_card) = drawing.split_at_mut(CPU_STAGES);
+    let push = |times: &mut [Times], found: &[f64]| {
         for (times, seconds) in times.iter_mut().zip(found) {
-            times.push(seconds);
+            times.push(*seconds);
+        }
+    };
+    let mut clip = Clip { stage, number: 0 };
+    for number in 0..WARM_UP + frames {
+        let (frame, taken) = clip.next()?;
+        let (picture, cpu) = backends.on_cpu(&frame)?;
+        backends.give_back(picture);
+        if number >= WARM_UP {
+            push(before, &taken);
+            push(on_cpu, &cpu_stages(taken.iter().sum(), cpu));
+        }
+    }
+    let mut error = None;
+    for number in 0..CARD_WARM_UP + frames {
+        let (frame, taken) = clip.next()?;
+        let Some((by_card, card)) = backends.on_card(&frame)? else {
+            break;
+        };
+        if number >= CARD_WARM_UP {
+            push(on_card, &card_stages(taken.iter().sum(), card));
+        }
+        if number + 1 == CARD_WARM_UP + frames {
+            let (picture, _) = backends.on_cpu(&frame)?;
+            error = Some(share_that_differs(&picture, &by_card));
+            backends.give_back(picture);
         }
     }
     let stages = BEFORE.into_iter().chain(STAGES).zip(&times);
     Ok(rows(name, samples as usize, stages, error))
+}
+
+/// Frames of a stage, 1/60 s apart, seen by a camera that goes round by 30 degrees a second.
+struct Clip<'a> {
+    stage: &'a mut Stage,
+    number: u32,
+}
+
+impl Clip<'_> {
+    /// The next frame, and the seconds that took what comes [`BEFORE`] it is drawn.
+    fn next(&mut self) -> Result<(Frame<'_>, [f64; 2]), BenchError> {
+        let time = f64::from(self.number) / FPS;
+        self.number += 1;
+        let start = Instant::now();
+        self.stage.scene.camera.yaw = (30.0 * time) as f32;
+        let advanced = self.stage.advance_to(time as f32);
+        advanced.map_err(|e| e.to_string())?;
+        let simulate = start.elapsed().as_secs_f64();
+        let frame = self.stage.frame().map_err(|e| e.to_string())?;
+        let paths = start.elapsed().as_secs_f64() - simulate;
+        Ok((frame, [simulate, paths]))
+    }
 }
 
 #[cfg(test)]

@@ -1,7 +1,9 @@
 //! Suite `scale`: frame time by stages, and memory, for 72 to 100,000 strands of 16 points on both backends.
 
 use crate::BenchError;
-use crate::backends::{Backends, Card, STAGES, Times, of_stages, rows, share_that_differs};
+use crate::backends::{
+    Backends, Card, STAGES, Times, card_stages, cpu_stages, rows, share_that_differs,
+};
 use crate::results::{self, Row};
 use crate::targets::{Found, Limit, Target};
 use effects::preset::Reader;
@@ -247,7 +249,11 @@ fn strands(count: usize, backends: &mut Backends, frames: u32) -> Result<Vec<Row
             error = Some(share_that_differs(&picture, by_card));
         }
         let mut found = vec![of_paths];
-        found.extend(of_stages(of_paths, cpu, card.map(|(_, times)| times)));
+        found.extend(cpu_stages(of_paths, cpu));
+        found.extend(
+            card.into_iter()
+                .flat_map(|(_, card)| card_stages(of_paths, card)),
+        );
         for (times, seconds) in times.iter_mut().zip(found) {
             times.push(seconds);
         }
