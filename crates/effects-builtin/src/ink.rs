@@ -7,7 +7,9 @@ effects::effect!("ink");
 pub struct Ink;
 
 /// As in the WGSL.
+const FEW_GAP_STEPS: u32 = 3;
 const GAP_STEPS: u32 = 5;
+const FEW_UP_TO: f32 = 3.0;
 const WIDEST: f32 = 150.0;
 
 impl effects::StrokeEffect for Ink {
@@ -19,10 +21,12 @@ impl effects::StrokeEffect for Ink {
     const DEPTH_OFFSET: f32 = 0.05;
 
     fn instances(params: &Params) -> u32 {
-        match params.gap_width > 1.0 {
-            true => effects::CLUMP_DISCS * GAP_STEPS,
-            false => effects::CLUMP_DISCS,
-        }
+        let steps = match params.gap_width {
+            width if width > FEW_UP_TO => GAP_STEPS,
+            width if width > 1.0 => FEW_GAP_STEPS,
+            _ => 1,
+        };
+        effects::CLUMP_DISCS * steps
     }
 
     fn reach(params: &Params) -> effects::Reach {

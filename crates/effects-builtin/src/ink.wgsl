@@ -47,9 +47,11 @@ struct Params {
     shade: f32,
 }
 
-/// In how many steps the width grows with the gap: each is a line of its own, wider and farther away than the next one, which lies on it: within a strand
-/// no depth decides.
+/// In how many steps the width grows with the gap, up to which factor a few do: then none is wider than the line itself. Each is a line of its own, wider and
+/// farther away than the next one, which lies on it: within a strand no depth decides.
+const FEW_GAP_STEPS: u32 = 3u;
 const GAP_STEPS: u32 = 5u;
+const FEW_UP_TO: f32 = 3.0;
 
 /// The widest line, in the layer's unit: the effect's reach.
 const WIDEST: f32 = 150.0;
@@ -114,7 +116,8 @@ fn on_paper(along: f32, whole: f32, seed: u32, gaps: f32) -> f32 {
 }
 
 fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
-    let step = select(0.0, 1.0 - f32(instance / 3u) / f32(GAP_STEPS - 1u), params.gap_width > 1.0);
+    let steps = select(GAP_STEPS, FEW_GAP_STEPS, params.gap_width <= FEW_UP_TO);
+    let step = select(0.0, 1.0 - f32(instance / 3u) / f32(steps - 1u), params.gap_width > 1.0);
     let disc = clump_disc(instance % 3u, joint.clump_radius, joint.clump_shift);
     let gray = saturate(dot(joint.light_direction, joint.normal));
     let own = color_or(params.color, DARK * joint.clump_color);

@@ -196,7 +196,7 @@ fn width_before(behind: f32, set: &[(&str, &str)]) -> f32 {
 /// Line quality by depth: the widths at gaps of 0 and of 0.1 head heights differ by the set ratio, and between both the width grows steadily.
 #[test]
 fn it_is_bolder_before_what_is_far_behind() {
-    for ratio in [1.5_f32, 2.0, 3.0] {
+    for ratio in [1.5_f32, 2.0, 3.0, 3.5, 8.0] {
         let text = ratio.to_string();
         let set = [("gap_width", &*text)];
         let [close, far] = [0.0, 0.1].map(|behind| width_before(behind, &set));
@@ -218,14 +218,24 @@ fn it_is_bolder_before_what_is_far_behind() {
 /// it, so that there would be no line between locks.
 #[test]
 fn its_finest_line_lies_on_top() {
-    let set: Vec<_> = EVEN.iter().chain(&[("gap_width", "2")]).copied().collect();
+    for (gap_width, steps) in [("2", 3), ("3", 3), ("8", 5)] {
+        its_finest_line_lies_on_top_of(gap_width, steps);
+    }
+}
+
+fn its_finest_line_lies_on_top_of(gap_width: &str, steps: usize) {
+    let set: Vec<_> = EVEN
+        .iter()
+        .chain(&[("gap_width", gap_width)])
+        .copied()
+        .collect();
     let params = One::<Ink>::params(&set);
     let joint = joint_at(0.5, 1.0, 3, 0.5);
     let strokes = (0..Ink::instances(&params))
         .step_by(effects::CLUMP_DISCS as usize)
         .map(|instance| stroke::<Ink>(&joint, instance, 1, &set));
     let strokes: Vec<_> = strokes.collect();
-    assert!(strokes.len() > 2);
+    assert_eq!(strokes.len(), steps);
     for pair in strokes.windows(2) {
         assert!(pair[1].radius < pair[0].radius);
         assert!(pair[1].depth_offset < pair[0].depth_offset);
