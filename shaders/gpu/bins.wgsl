@@ -34,8 +34,9 @@ fn tiles_of_chunk(index: u32) -> Tiles {
     let chunk = chunks[index];
     var low = vec2<f32>(1e30);
     var high = vec2<f32>(-1e30);
-    let first = tables[2u * chunk.strokes];
-    let count = tables[2u * chunk.strokes + 1u];
+    let record = LIST_WORDS * chunk.strokes;
+    let first = tables[record];
+    let count = tables[record + LIST_STROKES] + tables[record + LIST_DECALS];
     for (var s = 0u; s < count; s++) {
         let stroke = tables[first + s];
         if (stroke == NO_STROKE) {
@@ -59,8 +60,9 @@ fn tiles_of_chunk(index: u32) -> Tiles {
 
 fn nearest_of_chunk(index: u32) -> f32 {
     let chunk = chunks[index];
-    let first = tables[2u * chunk.strokes];
-    let count = tables[2u * chunk.strokes + 1u];
+    let record = LIST_WORDS * chunk.strokes;
+    let first = tables[record];
+    let count = tables[record + LIST_STROKES] + tables[record + LIST_DECALS];
     var nearest = 0.0;
     for (var s = 0u; s < count; s++) {
         let stroke = tables[first + s];

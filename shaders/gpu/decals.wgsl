@@ -70,7 +70,7 @@ fn draw_decals(
     let marks = marks_of(*samples);
     var decals = no_decals();
     let found = find_list(at, 0u, gpu_frame.chunk_capacity, gpu_frame.chunks, local);
-    var walk = begin_walk(found, BRUSHED);
+    var walk = begin_walk(found, BRUSHED, true);
     // Where `BRUSHED` one stroke of a strand at a time: its strand, number and record.
     var own = no_decals();
     var key = vec3<u32>(0u);
@@ -79,7 +79,7 @@ fn draw_decals(
             atomicStore(&reaching[local], 0u);
         }
         workgroupBarrier();
-        let looked = walk_batch(&walk, found, local, tile, true);
+        let looked = walk_batch(&walk, found, local, tile);
         if (looked.seen.is_there) {
             atomicOr(&reaching[local / 32u], 1u << (local % 32u));
         }

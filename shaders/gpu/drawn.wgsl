@@ -24,15 +24,18 @@ struct Triangle {
     surface: u32,
 }
 
+/// A list's record in the tables: where the list begins, how many strokes it has, and how many decals, which follow them.
+const LIST_WORDS: u32 = 3u;
+const LIST_STROKES: u32 = 1u;
+const LIST_DECALS: u32 = 2u;
+
 /// A stroke's record in the tables: where its discs would begin, if the frame's first joint had one; its number in the order
 /// of strokes, from 1 (0 is the clump); whether it is clipped to the clump, as ranks from 0 on are.
 const STROKE_FIRST_DISC: u32 = 0u;
 const STROKE_NUMBER: u32 = 1u;
 const STROKE_IS_CLIPPED: u32 = 2u;
-/// Of a decal where its record begins, 0 of others.
-const STROKE_DECAL: u32 = 3u;
-/// Where its brush's record begins, 0 of a stroke that is whole.
-const STROKE_BRUSH: u32 = 4u;
+/// Of a decal where its record begins; of others where their brush's does, 0 of a stroke that is whole.
+const STROKE_RECORD: u32 = 3u;
 
 /// In place of a stroke's record: a stroke that draws on other runs of the strand, and not on this chunk's.
 const NO_STROKE: u32 = 0u;
@@ -49,8 +52,7 @@ const SURFACE_MARKS: u32 = 12u;
 
 @group(0) @binding(0) var<uniform> gpu_frame: GpuFrame;
 @group(0) @binding(1) var<storage, read> chunks: array<Chunk>;
-/// Of each list of strokes where it begins and how many it has; the lists, of places in this buffer; the strokes; the
-/// surfaces.
+/// Of each list of strokes its record; the lists, of places in this buffer; the strokes; the surfaces.
 @group(0) @binding(2) var<storage, read> tables: array<u32>;
 @group(0) @binding(3) var<storage, read> discs: array<GpuDisc>;
 @group(0) @binding(4) var<storage, read> corners: array<Corner>;

@@ -82,15 +82,11 @@ struct Found {
     segment: Segment,
 }
 
-/// Looks at one of a chunk's segments, of the stroke at that place in its list: of decals, or of others.
-fn look_at(chunk: Chunk, in_list: u32, place: u32, tile: vec2<f32>, decals: bool) -> Found {
+/// Looks at one of a chunk's segments, of the stroke at that place in its list.
+fn look_at(chunk: Chunk, in_list: u32, place: u32, tile: vec2<f32>) -> Found {
     var found: Found;
-    let stroke = tables[tables[2u * chunk.strokes] + in_list];
+    let stroke = tables[tables[LIST_WORDS * chunk.strokes] + in_list];
     if (stroke == NO_STROKE) {
-        return found;
-    }
-    let decal = tables[stroke + STROKE_DECAL];
-    if ((decal != 0u) != decals) {
         return found;
     }
     let number = tables[stroke + STROKE_NUMBER];
@@ -142,7 +138,7 @@ fn look_at(chunk: Chunk, in_list: u32, place: u32, tile: vec2<f32>, decals: bool
         number,
         ORDER != SHIFTED && tables[stroke + STROKE_IS_CLIPPED] != 0u,
         chunk.strand,
-        select(tables[stroke + STROKE_BRUSH], decal, decals),
+        tables[stroke + STROKE_RECORD],
     );
     return found;
 }

@@ -263,9 +263,10 @@ struct EntriesOfStrand {
     strokes: u32,
 }
 
-/// A way through a tile's list: segment by segment of an entry, counted on through its strokes. `by_stroke`, where strokes are finished one after
-/// the other, the entries of a strand come once for each of its strokes, and have the segments of that one.
+/// A way through a tile's list: segment by segment of an entry, counted on through its strokes, or through its decals. `by_stroke`, where strokes are
+/// finished one after the other, the entries of a strand come once for each of its strokes, and have the segments of that one.
 struct Walk {
+    decals: bool,
     by_stroke: bool,
     /// The next thing to look at: an entry, and a segment of it.
     next: u32,
@@ -281,12 +282,24 @@ struct Looked {
     nearest: f32,
 }
 
-fn begin_walk(found: vec3<u32>, by_stroke: bool) -> Walk {
-    return Walk(by_stroke, 0u, 0u, 0u, 0u, strand_at(found, 0u, by_stroke));
+const NO_ENTRY: u32 = 0xffffffffu;
+
+fn begin_walk(found: vec3<u32>, by_stroke: bool, decals: bool) -> Walk {
+    return Walk(decals, by_stroke, 0u, 0u, 0u, 0u, strand_at(found, 0u, by_stroke, decals));
+}
+
+/// The strokes of a chunk, or its decals: where they begin in its list, and how many there are.
+fn strokes_of(chunk: Chunk, decals: bool) -> vec2<u32> {
+    let record = LIST_WORDS * chunk.strokes;
+    let strokes = tables[record + LIST_STROKES];
+    if (decals) {
+        return vec2<u32>(strokes, tables[record + LIST_DECALS]);
+    }
+    return vec2<u32>(0u, strokes);
 }
 
 /// The strand whose entries begin there, for walks stroke by stroke.
-fn strand_at(found: vec3<u32>, first: u32, by_stroke: bool) -> EntriesOfStrand {
+fn strand_at(found: vec3<u32>, first: u32, by_stroke: bool, decals: bool) -> EntriesOfStrand {
     var whole = EntriesOfStrand(first, 0u);
     if (!by_stroke) {
         return whole;
@@ -296,29 +309,34 @@ fn strand_at(found: vec3<u32>, first: u32, by_stroke: bool) -> EntriesOfStrand {
         if (chunk.strand != chunks[entry(found, first)].strand) {
             break;
         }
-        whole.strokes = max(whole.strokes, tables[2u * chunk.strokes + 1u]);
+        whole.strokes = max(whole.strokes, strokes_of(chunk, decals).y);
         whole.end++;
     }
     return whole;
 }
 
-/// All walk along the segments of the next batch; each looks at the one that is its own.
-fn walk_batch(walk: ptr<function, Walk>, found: vec3<u32>, local: u32, tile: vec2<f32>, decals: bool) -> Looked {
+/// All walk along the segments of the next batch; each looks at the one that is its own, all of them together: in the walk one entry's would wait for
+/// memory after the other's.
+fn walk_batch(walk: ptr<function, Walk>, found: vec3<u32>, local: u32, tile: vec2<f32>) -> Looked {
     var looked: Looked;
+    var own_entry = NO_ENTRY;
+    var own_stroke = 0u;
+    var own_place = 0u;
     var offset = 0u;
     while ((*walk).next < found.y && offset < BATCH) {
         let chunk = chunks[entry(found, (*walk).next)];
         let places = max(chunk.segments, 1u);
-        let strokes = tables[2u * chunk.strokes + 1u];
-        var items = places * strokes;
+        let strokes = strokes_of(chunk, (*walk).decals);
+        var items = places * strokes.y;
         if ((*walk).by_stroke) {
-            items = select(0u, places, (*walk).in_list < strokes);
+            items = select(0u, places, (*walk).in_list < strokes.y);
         }
         let taken = min(items - (*walk).item, BATCH - offset);
         if (local >= offset && local < offset + taken) {
             let own = (*walk).item + local - offset;
-            looked.seen = look_at(chunk, (*walk).in_list + own / places, own % places, tile, decals);
-            looked.nearest = nearest_in(found, (*walk).next);
+            own_entry = (*walk).next;
+            own_stroke = strokes.x + (*walk).in_list + own / places;
+            own_place = own % places;
         }
         offset += taken;
         (*walk).item += taken;
@@ -334,9 +352,13 @@ fn walk_batch(walk: ptr<function, Walk>, found: vec3<u32>, local: u32, tile: vec
             } else {
                 (*walk).in_list = 0u;
                 (*walk).first_entry = (*walk).next;
-                (*walk).entries = strand_at(found, (*walk).next, true);
+                (*walk).entries = strand_at(found, (*walk).next, true, (*walk).decals);
             }
         }
+    }
+    if (own_entry != NO_ENTRY) {
+        looked.seen = look_at(chunks[entry(found, own_entry)], own_stroke, own_place, tile);
+        looked.nearest = nearest_in(found, own_entry);
     }
     return looked;
 }
@@ -352,7 +374,7 @@ fn draw_strands(
     samples: ptr<function, Samples>,
 ) {
     let found = find_list(at, 0u, gpu_frame.chunk_capacity, gpu_frame.chunks, local);
-    var walk = begin_walk(found, ORDER == SHIFTED || BRUSHED);
+    var walk = begin_walk(found, ORDER == SHIFTED || BRUSHED, false);
     // What has come of a strand; where strokes are finished one after the other, of one of its strokes.
     var strand = no_strand();
     // The strand's number, and the stroke's where there is one at a time; and its brush.
@@ -380,7 +402,7 @@ fn draw_strands(
         if (workgroupUniformLoad(&is_open) == 0u) {
             break;
         }
-        let looked = walk_batch(&walk, found, local, tile, false);
+        let looked = walk_batch(&walk, found, local, tile);
         if (looked.seen.is_there) {
             atomicOr(&reaching[local / 32u], 1u << (local % 32u));
         }

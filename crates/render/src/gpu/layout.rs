@@ -91,8 +91,8 @@ pub(super) const DISC_BYTES: u64 = 32;
 pub(super) const CLUMP_BYTES: u64 = 48;
 /// Width and height of a tile, pixels.
 pub(super) const TILE: u32 = 8;
-/// Most segments of a chunk.
-pub(super) const CHUNK: usize = 8;
+/// Most segments of a chunk. With eight, tiles look at many that don't reach them; with two, lists are long.
+pub(super) const CHUNK: usize = 4;
 /// Invocations of a workgroup, but for the tiles'.
 pub(super) const WORKGROUP: u32 = 64;
 

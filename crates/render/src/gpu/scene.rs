@@ -16,11 +16,13 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// Words of a stroke's record in the tables.
-const STROKE_WORDS: usize = 5;
+const STROKE_WORDS: usize = 4;
 /// Words of a surface's record in the tables, as `shaders/gpu/drawn.wgsl` has it.
 const SURFACE_WORDS: usize = 13;
 /// Words of a decal's record in the tables, as `shaders/gpu/decals.wgsl` has it.
 const DECAL_WORDS: usize = 4;
+/// Words that say where a list of strokes is, as `shaders/gpu/drawn.wgsl` reads them.
+const LIST_WORDS: usize = 3;
 /// Stands where a list has no stroke's record: the tables begin with the lists.
 const NO_STROKE: u32 = 0;
 
@@ -360,36 +362,44 @@ impl SceneWords {
             }
         }
 
-        let strokes_in = |list: &[Drawn]| -> usize {
-            let drawn = placed.iter().zip(list);
-            let drawn = drawn.filter(|(_, drawn)| **drawn != Drawn::Nowhere);
-            clump_discs + drawn.map(|(p, _)| p.instances as usize).sum::<usize>()
-        };
-        let counts: Vec<usize> = lists.iter().map(|list| strokes_in(list)).collect();
-        let records_at = 2 * lists.len() + counts.iter().sum::<usize>();
-        let record = |number: usize| (records_at + STROKE_WORDS * number) as u32;
-        self.tables.clear();
-        let mut list_at = 2 * lists.len();
-        for count in &counts {
-            self.tables.extend([list_at as u32, *count as u32]);
-            list_at += count;
-        }
-        for list in &lists {
-            self.tables.extend((0..clump_discs).map(record));
+        // Of each list where it begins, how many strokes it has, and how many decals, which follow them.
+        let records_of = |list: &[Drawn], decals: bool| -> Vec<Option<usize>> {
+            let mut records: Vec<Option<usize>> = match decals {
+                false => (0..clump_discs).map(Some).collect(),
+                true => Vec::new(),
+            };
             let mut number = clump_discs;
             for (p, drawn) in placed.iter().zip(list) {
                 let numbers = number..number + p.instances as usize;
                 number = numbers.end;
+                if p.decal.is_some() != decals {
+                    continue;
+                }
                 match drawn {
-                    Drawn::Here => self.tables.extend(numbers.map(record)),
-                    Drawn::Beside => self.tables.extend(numbers.map(|_| NO_STROKE)),
+                    Drawn::Here => records.extend(numbers.map(Some)),
+                    Drawn::Beside => records.extend(numbers.map(|_| None)),
                     Drawn::Nowhere => {}
                 }
             }
+            records
+        };
+        let lists = lists.iter();
+        let lists = lists.map(|list| [false, true].map(|decals| records_of(list, decals)));
+        let lists: Vec<[Vec<Option<usize>>; 2]> = lists.collect();
+        let mut list_at = LIST_WORDS * lists.len();
+        self.tables.clear();
+        for [strokes, decals] in &lists {
+            let words = [list_at, strokes.len(), decals.len()];
+            self.tables.extend(words.map(|word| word as u32));
+            list_at += strokes.len() + decals.len();
+        }
+        let record = |number: usize| (list_at + STROKE_WORDS * number) as u32;
+        for records in lists.iter().flatten().flatten() {
+            self.tables.push(records.map_or(NO_STROKE, record));
         }
         // The clump's discs begin at the buffer's start, those of one side after those of the other.
         for disc in 0..clump_discs {
-            self.tables.extend([(disc * joints) as u32, 0, 0, 0, 0]);
+            self.tables.extend([(disc * joints) as u32, 0, 0, 0]);
         }
         let strokes: usize = placed.iter().map(|p| p.instances as usize).sum();
         self.strokes_at = record(clump_discs) as usize;
@@ -404,7 +414,7 @@ impl SceneWords {
                 let first = first.wrapping_sub(p.joints.start as u32);
                 let decal = p.decal.map_or(0, |p| decals_at + (DECAL_WORDS * p) as u32);
                 let is_clipped = u32::from(p.rank >= 0);
-                self.tables.extend([first, number, is_clipped, decal, 0]);
+                self.tables.extend([first, number, is_clipped, decal]);
             }
         }
     }
@@ -455,11 +465,12 @@ impl SceneWords {
                     image.map_or(0, |(_, at)| *at)
                 };
                 self.tables.extend(marks.map(place));
-                for record in (stroke..end).step_by(STROKE_WORDS) {
-                    self.tables[record + STROKE_WORDS - 1] = at;
-                }
                 if let Some(decal) = p.decal {
                     self.tables[decals_at + DECAL_WORDS * (decal + 1) - 1] = at;
+                } else {
+                    for record in (stroke..end).step_by(STROKE_WORDS) {
+                        self.tables[record + STROKE_WORDS - 1] = at;
+                    }
                 }
             }
             stroke = end;
