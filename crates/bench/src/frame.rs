@@ -199,6 +199,8 @@ impl Options {
             ),
             "method: a backend and its stage; simulate and paths are of both; knob: samples"
                 .to_owned(),
+            "gpu:strokes, gpu:bins and gpu:tiles: by the card's own clock, which goes up and down: the least of all frames"
+                .to_owned(),
             "error of gpu: share of pixels that differ from the CPU's by more than 2/255"
                 .to_owned(),
             format!(
