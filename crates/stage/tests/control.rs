@@ -120,6 +120,33 @@ fn a_zone_moves_in_its_own_way() {
     }
 }
 
+/// What a zone says of `recall` is a factor on the look's: with 0 its hair is not recalled, to the bit, beside other hair that is.
+#[test]
+fn a_zone_is_recalled_in_its_own_measure() {
+    let swung = |recall: &str, own: &str| {
+        let settings = [
+            ("dynamics.links", "0"),
+            ("dynamics.volume", "0"),
+            ("dynamics.recall", recall),
+        ];
+        let all = points(&scene(own, SHAKE, &settings), 1.0);
+        let second = all.len() / 2;
+        [all[..second].to_vec(), all[second..].to_vec()]
+    };
+    let [free, plain] = [swung("0", ""), swung("8", "")];
+    let apart = farthest(&free[1], &plain[1]);
+    println!("recalled: {apart:.3} m from hair that isn't");
+    assert!(apart > 0.01, "{apart}");
+    assert_eq!(
+        swung("8", ", recall: 0"),
+        [plain[0].clone(), free[1].clone()]
+    );
+    assert_eq!(swung("4", ", recall: 2")[1], plain[1]);
+    // As far as the solver goes.
+    let most = swung("100", ", recall: 100");
+    assert!(most.concat().iter().all(|point| point.is_finite()));
+}
+
 #[test]
 fn a_look_may_vary_along_its_strands_and_from_one_to_the_other() {
     let plain = points(&scene("", GUST, &[]), 0.5);

@@ -639,6 +639,43 @@ fn hair_that_is_thrown_over_a_shoulder_is_recalled() {
     }
 }
 
+/// Hair that streams in a gust lies far from its style, too, and yet is not held there: recalled or not, it goes the same way.
+#[test]
+fn what_streams_in_a_wind_is_hardly_recalled() {
+    let mut registry = Registry::new();
+    effects_builtin::register(&mut registry).unwrap();
+    let text = fs::read_to_string(presets().join("long-pink.ron")).unwrap();
+    let [free, recalled] = ["0", "4"].map(|recall| {
+        let mut preset = Preset::parse("look.ron", &text, &registry).unwrap();
+        preset.set("dynamics.recall", recall).unwrap();
+        let files = Files {
+            preset_folder: presets(),
+            motion: Some(presets().join("motions/gust.motion.ron")),
+            ..Files::default()
+        };
+        let scene = Scene::load(&preset, &files).unwrap();
+        let mut motion = Motion::new();
+        let mut at = |time_s| {
+            motion.advance_to(&scene, time_s).unwrap();
+            motion.points(&scene, 0).to_vec()
+        };
+        let height_m = scene.head().height_m;
+        ([0.0, 1.0, 1.3, 2.0].map(&mut at), height_m)
+    });
+    let mean = |a: &[Vec3], b: &[Vec3]| {
+        let apart = a.iter().zip(b).map(|(a, b)| a.distance(*b));
+        apart.sum::<f32>() / (a.len() as f32 * free.1)
+    };
+    for i in 1..4 {
+        let streams = mean(&free.0[i], &free.0[0]);
+        let apart = mean(&free.0[i], &recalled.0[i]);
+        println!(
+            "{streams:.3} head heights from the style on average; recalled hair {apart:.3} from there"
+        );
+        assert!(i == 3 || apart < 0.2 * streams, "{apart} of {streams}");
+    }
+}
+
 /// Locks of looks that keep out of each other when a head turns fast, at 60 frames a second: it moves them, and costs few iterations more.
 #[test]
 fn locks_keep_out_of_each_other_in_looks() {

@@ -124,7 +124,7 @@ impl Case {
         } else {
             Vec::new()
         };
-        Self {
+        let mut case = Self {
             threads: rng.usize(2..9),
             saved: rng.usize(..frames.len()),
             rest,
@@ -133,7 +133,15 @@ impl Case {
             frames,
             faults,
             order,
+        };
+        // Last, so that a seed that failed once stays its scene.
+        if rng.u8(..4) == 0 {
+            for params in &mut case.params {
+                params.recall = one_of(rng, &[0.0, 1.0, 4.0, 1000.0]) * GRAVITY;
+                params.recall_from = spread(rng, 1e-6, 1.0);
+            }
         }
+        case
     }
 }
 

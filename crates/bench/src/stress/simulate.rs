@@ -371,7 +371,7 @@ fn drives(case: &Case, params: &Params, before: &Frame, now: &Frame, strand: usi
     let blows = |f: &Frame| f.wind.gust != 0.0 || f.wind.steady != DVec3::ZERO;
     let goal = params.goal;
     case.mutual.is_some()
-        || goal.root + goal.middle + goal.tip > 0.0
+        || goal.root + goal.middle + goal.tip + params.recall > 0.0
         || root(before) != root(now)
         || before.gravity != now.gravity
         || params.drag > 0.0 && (blows(before) || blows(now))

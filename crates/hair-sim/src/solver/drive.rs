@@ -25,7 +25,7 @@ use super::{
     stage::GAMMA,
 };
 
-/// The speed in m/s at which half of what recalls a particle is left.
+/// The speed in m/s, of a particle or of the air that reaches it, at which half of what recalls it is left.
 const CALM: f64 = 0.5;
 
 /// A recalled particle is pulled to so much higher than its place as it is beside that: up and over what lies between.
@@ -303,10 +303,11 @@ impl<T: Number> Turned<T> {
     }
 }
 
-/// The pull on particles that lie so far from their goals, in m, and move against them at such a speed, in m/s, where `up` is against gravity: its
-/// stiffness, and how far above the goal it pulls to. See [`Params::recall`](crate::Params::recall).
+/// The pull on particles that lie so far from their goals, in m, where the sum of the squares of their speed against these and of that of the air is
+/// `restless`, in m^2/s^2, and `up` is against gravity: its stiffness, and how far above the goal it pulls to. See
+/// [`Params::recall`](crate::Params::recall).
 #[inline(always)]
-fn recalled<T: Number>(batch: &Batch, way: Vec3<T>, speed: Vec3<T>, up: Vec3<T>) -> (T, Vec3<T>) {
+fn recalled<T: Number>(batch: &Batch, way: Vec3<T>, restless: T, up: Vec3<T>) -> (T, Vec3<T>) {
     let (zero, one) = (T::splat(0.0), T::splat(1.0));
     let far = way.length_squared().sqrt();
     let share = far / batch.recall_from.load::<T>() - one;
@@ -314,7 +315,7 @@ fn recalled<T: Number>(batch: &Batch, way: Vec3<T>, speed: Vec3<T>, up: Vec3<T>)
     let aside = way - up.scale(way.dot(up));
     let lift = up.scale(aside.length_squared().sqrt() * T::splat(OVER));
     let whole = (way + lift).length_squared().sqrt();
-    let calm = one + speed.length_squared() * T::splat(1.0 / (CALM * CALM));
+    let calm = one + restless * T::splat(1.0 / (CALM * CALM));
     let pull = batch.recall.load::<T>() * share / (whole * calm);
     let pulls = T::splat(LEAST_WAY).less(whole);
     let pull = T::choose(pulls, pull, zero);
@@ -343,6 +344,7 @@ fn pull_to_goals<T: Number, const RECALLS: bool>(
     let up = Vec3::<T>::all(gravity.normalize_or_zero() * -1.0);
     let turned = Turned::<T>::by(&poses);
     let has_strand = Mask::new(batch.strands.map(|strand| strand.is_some()));
+    let air = &drive.gusts[1];
     let here = T::condition(&has_strand);
     for k in 0..batch.count() {
         let styled = batch.styled[k];
@@ -386,7 +388,13 @@ fn pull_to_goals<T: Number, const RECALLS: bool>(
         if RECALLS {
             let way = before - state.y[k].load();
             let speed = state.v[k].load::<T>() - (now - before) * (1.0 / drive.dt);
-            let (stiffness, lift) = recalled(batch, way, speed, up);
+            let mut restless = speed.length_squared();
+            if air.blows {
+                let place = state.root.load::<T>() + state.y[k].load();
+                let air = air.velocity(place).scale(batch.particles[k].wind.load());
+                restless = restless + air.length_squared();
+            }
+            let (stiffness, lift) = recalled(batch, way, restless, up);
             spring.pull(
                 stiffness,
                 before + lift,

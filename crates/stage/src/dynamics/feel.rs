@@ -16,6 +16,7 @@ pub(crate) struct ZoneDynamics {
     pub damping: f32,
     pub drag: Variation,
     pub hold: Variation,
+    pub recall: f32,
     pub wind: Variation,
     pub locks: f32,
 }
@@ -29,6 +30,7 @@ impl Default for ZoneDynamics {
             damping: 1.0,
             drag: same(),
             hold: same(),
+            recall: 1.0,
             wind: same(),
             locks: 1.0,
         }
@@ -187,9 +189,9 @@ impl Feel {
             .times(zone(|zone| &zone.hold), own("zones.hold"));
         let wind = Factor::new(&section.wind, own("dynamics.wind"))
             .times(zone(|zone| &zone.wind), own("zones.wind"));
-        let damping = f64::from(section.damping.unwrap_or(1.0))
-            * strand.zone.map_or(1.0, |zone| f64::from(zone.damping));
-        let locks = strand.zone.map_or(1.0, |zone| f64::from(zone.locks));
+        let number =
+            |of: fn(&ZoneDynamics) -> f32| strand.zone.map_or(1.0, |zone| f64::from(of(zone)));
+        let damping = f64::from(section.damping.unwrap_or(1.0)) * number(|zone| zone.damping);
         let feel = strand.zone.and_then(|zone| zone.feel);
         let word = feel.unwrap_or(section.feel).word();
         let [root, middle, tip] = self.hold.unwrap_or(word.hold);
@@ -202,8 +204,10 @@ impl Feel {
             drag_at: drag.along(Profile::constant(1.0), 0.0),
             wind: wind.all_along(Profile::constant(1.0)),
             goal: hold.all_along(Profile { root, middle, tip }),
+            recall: (self.params.recall * number(|zone| zone.recall)).min(1e4),
             thickness: (self.distance * f64::from(strand.size)).clamp(1e-4, 0.1),
-            lock_radius: (self.lock_radius * f64::from(strand.size) * locks).min(0.1),
+            lock_radius: (self.lock_radius * f64::from(strand.size) * number(|zone| zone.locks))
+                .min(0.1),
             ..self.params
         }
     }

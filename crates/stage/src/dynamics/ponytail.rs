@@ -18,7 +18,8 @@ const CLUMPS: usize = 20;
 const FPS: f32 = 60.0;
 /// Places along the tail, as shares of its mean clump: where it hangs freely.
 const PLACES: [f32; 3] = [0.5, 0.65, 0.8];
-/// How much of its volume it keeps in all of a motion. As the head turns, half of it comes to lie on a shoulder, which doesn't turn, and stays there.
+/// How much of its volume it keeps in all of a motion. As the head turns, half of it comes to lie on a shoulder, which doesn't turn, and stays there
+/// unless it is recalled.
 const LEAST_VOLUME: f64 = 0.89;
 const LEAST_VOLUME_ON_SHOULDER: f64 = 0.75;
 
@@ -128,8 +129,8 @@ impl Section {
     }
 }
 
-/// A scene of a ponytail in a move by 60 degrees.
-fn scene(kind: &str) -> Scene {
+/// A scene of a ponytail in a move by 60 degrees, in a look with these settings.
+fn scene(kind: &str, settings: &[(&str, &str)]) -> Scene {
     let folder = tempfile::tempdir().unwrap();
     let file = |name: &str, text: &str| {
         let path = folder.path().join(name);
@@ -153,6 +154,9 @@ fn scene(kind: &str) -> Scene {
     let text = fs::read_to_string(presets.join("outlined.ron")).unwrap();
     let mut preset = Preset::parse("look.ron", &text, &registry).unwrap();
     preset.set("scene.fps", &FPS.to_string()).unwrap();
+    for (name, value) in settings {
+        preset.set(name, value).unwrap();
+    }
     let files = Files {
         preset_folder: presets,
         hair: Some(hair),
@@ -162,9 +166,28 @@ fn scene(kind: &str) -> Scene {
     Scene::load(&preset, &files).unwrap()
 }
 
-/// Moves a ponytail, and looks at its groups where it is fastest and at its least volume of all frames.
-fn parts_and_keeps(kind: &str, frames: usize, least_volume: f64) {
-    let scene = scene(kind);
+/// What a motion leaves of a ponytail.
+struct Kept {
+    /// How many groups there are at each of the places, where it is fastest.
+    groups: Vec<usize>,
+    /// Its volume there, at the least of all frames and in the last, for that at rest.
+    fastest: f64,
+    least: f64,
+    last: f64,
+}
+
+impl Kept {
+    fn holds(&self, least_volume: f64) {
+        let Self { groups, .. } = self;
+        assert!(groups.iter().all(|n| (3..=5).contains(n)), "{groups:?}");
+        let (fastest, least) = (self.fastest, self.least);
+        assert!(fastest > 0.9 && least > least_volume, "{fastest} {least}");
+    }
+}
+
+/// Moves a ponytail.
+fn moved(kind: &str, settings: &[(&str, &str)], frames: usize) -> Kept {
+    let scene = scene(kind, settings);
     let object = &scene.objects()[0];
     let hair = object.hair();
     let is_tail = |strand: &usize| hair.zone_name(hair.infos[*strand].id) == Some("tail");
@@ -172,7 +195,7 @@ fn parts_and_keeps(kind: &str, frames: usize, least_volume: f64) {
     assert_eq!(tail.len(), CLUMPS);
     let mut motion = Motion::new();
     let mut before: Vec<Vec3> = Vec::new();
-    let (mut rest_m2, mut least) = (0.0, f64::INFINITY);
+    let (mut rest_m2, mut least, mut last) = (0.0, f64::INFINITY, 1.0);
     let mut fastest = (0.0, 0.0, Vec::new());
     for frame in 0..=frames {
         motion.advance_to(&scene, frame as f32 / FPS).unwrap();
@@ -187,35 +210,45 @@ fn parts_and_keeps(kind: &str, frames: usize, least_volume: f64) {
         if frame == 0 {
             rest_m2 = area_m2;
         }
-        let volume = area_m2 / rest_m2;
-        least = least.min(volume);
+        last = area_m2 / rest_m2;
+        least = least.min(last);
         let now: Vec<Vec3> = clumps.iter().map(|(points, _)| at(points, 0.8)).collect();
         let ways = now.iter().zip(&before).map(|(a, b)| a.distance(*b));
         let speed = ways.sum::<f32>() * FPS / CLUMPS as f32;
         if speed > fastest.0 {
-            let groups = sections.iter().map(Section::groups).collect();
-            fastest = (speed, volume, groups);
+            let groups: Vec<Vec<usize>> = sections.iter().map(Section::groups).collect();
+            fastest = (speed, last, groups);
         }
         before = now;
     }
-    let (speed, volume, groups) = fastest;
+    let (speed, fastest, groups) = fastest;
     println!(
-        "{kind}: at {speed:.2} m/s {volume:.3} of its volume, clumps of groups at {PLACES:?} of its length {groups:?}; {least:.3} of its volume at least"
+        "{kind} {settings:?}: at {speed:.2} m/s {fastest:.3} of its volume, clumps of groups at {PLACES:?} of its length {groups:?}; {least:.3} of its volume at least, {last:.3} at the end"
     );
-    assert!(
-        groups.iter().all(|groups| (3..=5).contains(&groups.len())),
-        "{groups:?}"
-    );
-    assert!(volume > 0.9 && least > least_volume, "{volume} {least}");
+    Kept {
+        groups: groups.iter().map(Vec::len).collect(),
+        fastest,
+        least,
+        last,
+    }
 }
 
 #[test]
 fn a_ponytail_parts_into_a_few_groups() {
-    parts_and_keeps("turn", 60, LEAST_VOLUME_ON_SHOULDER);
+    moved("turn", &[], 240).holds(LEAST_VOLUME_ON_SHOULDER);
+}
+
+/// Recalled from the shoulder it has its volume once it hangs still; recalled from nearby it keeps it, and hardly swings.
+#[test]
+fn a_ponytail_that_is_recalled_comes_back_to_its_volume() {
+    let swings = moved("turn", &[("dynamics.recall", "4")], 240);
+    assert!(swings.last > 0.9, "{}", swings.last);
+    let nearby = [("dynamics.recall", "5"), ("dynamics.recall_from", "0.05")];
+    moved("turn", &nearby, 240).holds(0.9);
 }
 
 /// The shoulders turn along: nothing but the swing can take volume.
 #[test]
 fn a_ponytail_that_swings_keeps_its_volume() {
-    parts_and_keeps("spin", 240, LEAST_VOLUME);
+    moved("spin", &[], 240).holds(LEAST_VOLUME);
 }

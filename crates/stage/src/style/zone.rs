@@ -169,6 +169,8 @@ section! {
         drag: Variation = varying(1.0, 0.0..=100.0),
         /// Factor on the pull back to the style.
         hold: Variation = varying(1.0, 0.0..=100.0),
+        /// Factor on the pull on hair that has come to lie far from its style; 0 leaves it there.
+        recall: f32 = number(1.0, 0.0..=100.0),
         /// Factor on the share of the wind that reaches it.
         wind: Variation = varying(1.0, 0.0..=10.0),
         /// Factor on how far its clumps keep from others; 0: they pass through them, as others do through them, which costs less.
@@ -218,6 +220,7 @@ pub(super) fn zone<'a>(reader: &mut Reader<'a>, item: &'a str, points: u32) -> R
         damping: fields.damping,
         drag: fields.drag.clone(),
         hold: fields.hold.clone(),
+        recall: fields.recall,
         wind: fields.wind.clone(),
         locks: fields.locks,
     };
