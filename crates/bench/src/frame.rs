@@ -340,7 +340,8 @@ pub(crate) fn look(
         }
     }
     let mut error = None;
-    for number in 0..CARD_WARM_UP + frames {
+    let of_card = backends.card_name().map_or(0, |_| CARD_WARM_UP + frames);
+    for number in 0..of_card {
         let (frame, taken) = clip.next()?;
         let Some((by_card, card)) = backends.on_card(&frame)? else {
             break;
@@ -348,7 +349,7 @@ pub(crate) fn look(
         if number >= CARD_WARM_UP {
             push(on_card, &card_stages(taken.iter().sum(), card));
         }
-        if number + 1 == CARD_WARM_UP + frames {
+        if number + 1 == of_card {
             let (picture, _) = backends.on_cpu(&frame)?;
             error = Some(share_that_differs(&picture, &by_card));
             backends.give_back(picture);

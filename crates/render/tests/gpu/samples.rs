@@ -82,11 +82,15 @@ fn every_feature_agrees() {
         let ids: Vec<Feature> = Feature::ALL.iter().copied().filter(|f| f.is_id()).collect();
         let is_other = |(a, b): &(&Sample, &Sample)| ids.iter().any(|id| differs(a, b, *id));
         let others: Vec<_> = pairs().filter(is_other).collect();
-        // Some lie on edges, which a card that multiplies and adds in one rounds otherwise: four of 29,100 on an H200.
-        let share = others.len() as f64 / cpu.len() as f64;
+        // Some lie on edges, which a real card, that multiplies and adds in one, rounds otherwise: four of 29,100 on an H200.
+        let most = match card.info().device_type {
+            wgpu::DeviceType::Cpu => 2,
+            _ => 5,
+        };
+        let count = others.len();
         assert!(
-            share < 2e-4,
-            "seed {seed}: {share} have other ids, such as {others:?}"
+            count <= most,
+            "seed {seed}: {count} ids, such as {others:?}"
         );
         for &feature in Feature::ALL.iter().filter(|feature| !feature.is_id()) {
             let is_off =
