@@ -141,7 +141,18 @@ impl Case {
                 params.recall_from = spread(rng, 1e-6, 1.0);
             }
         }
+        if rng.u8(..4) == 0 {
+            let radius = spread(rng, 1e-6, 0.1);
+            for params in &mut case.params {
+                params.lock_radius = radius * one_of(rng, &[0.0, 0.5, 1.0]);
+            }
+        }
         case
+    }
+
+    /// Whether strands act on each other: as neighbours, or as locks, of which even those that keep no distance sleep with the others.
+    pub fn is_mutual(&self) -> bool {
+        self.mutual.is_some() || self.params.iter().any(|params| params.lock_radius > 0.0)
     }
 }
 

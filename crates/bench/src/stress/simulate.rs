@@ -34,6 +34,8 @@ pub struct Trace {
     pub steps: usize,
     /// Steps of strands that took the safe integrator.
     pub fallbacks: usize,
+    /// Particles that had a plane before another lock, step by step.
+    pub meetings: usize,
     /// Strands that are set aside at the end.
     pub set_aside: usize,
 }
@@ -62,6 +64,7 @@ pub fn simulate(case: &Case, how: &How) -> Result<Trace, BenchError> {
         bits: Vec::with_capacity(case.frames.len()),
         steps: 0,
         fallbacks: 0,
+        meetings: 0,
         set_aside: 0,
     };
     for (index, frame) in case.frames.iter().enumerate() {
@@ -73,6 +76,7 @@ pub fn simulate(case: &Case, how: &How) -> Result<Trace, BenchError> {
         run.check(index, frame).map_err(at)?;
         trace.steps += stats.strands;
         trace.fallbacks += stats.fallbacks;
+        trace.meetings += stats.meetings;
         trace.bits.push(run.bits());
     }
     trace.set_aside = run.aside.iter().filter(|aside| **aside).count();
@@ -370,7 +374,7 @@ fn drives(case: &Case, params: &Params, before: &Frame, now: &Frame, strand: usi
     let root = |f: &Frame| f.each.as_ref().map_or(f.head, |each| each[strand]);
     let blows = |f: &Frame| f.wind.gust != 0.0 || f.wind.steady != DVec3::ZERO;
     let goal = params.goal;
-    case.mutual.is_some()
+    case.is_mutual()
         || goal.root + goal.middle + goal.tip + params.recall > 0.0
         || root(before) != root(now)
         || before.gravity != now.gravity
