@@ -14,14 +14,17 @@ use crate::results::{self, Row};
 use crate::targets::Target;
 use crate::timing::{Effort, medians};
 use contenders::{
-    Card, Contender, Library, Outlines, PathsAlone, Sweep, TinySkia, Vello, in_order,
+    Contender, Library, OnCard, Outlines, PathsAlone, Sweep, TinySkia, Vello, in_order,
 };
 use indicatif::ProgressBar;
 use reference::compare::{self, Difference};
 use render::Order;
+use render::gpu::Offscreen;
 use scenes::TestDrawing;
 use stamping::Stamping;
+use std::cell::RefCell;
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 use std::time::Duration;
 use targets::{PATHS_ALONE, STAMPING, SWEEP, SWEEP_SHIFTED, VELLO};
 
@@ -82,9 +85,10 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
     if options.quick {
         scenes.truncate(2);
     }
+    let card = OnCard::card()?;
     let mut entries_of_scenes = Vec::new();
     for scene in &scenes {
-        entries_of_scenes.push(entries(scene, options)?);
+        entries_of_scenes.push(entries(scene, card.as_ref(), options)?);
     }
     let effort = effort(options);
     let entries = entries_of_scenes.iter().map(Vec::len).sum::<usize>();
@@ -131,7 +135,11 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
 }
 
 /// Everything that draws a scene.
-fn entries(scene: &TestDrawing, options: &Options) -> Result<Vec<Entry>, BenchError> {
+fn entries(
+    scene: &TestDrawing,
+    card: Option<&Rc<RefCell<Offscreen>>>,
+    options: &Options,
+) -> Result<Vec<Entry>, BenchError> {
     let threads = options.threads;
     let mut entries = Vec::new();
     let mut add = |method: String, knob, order, contender: Box<dyn Contender>| {
@@ -149,9 +157,14 @@ fn entries(scene: &TestDrawing, options: &Options) -> Result<Vec<Entry>, BenchEr
         }
     }
     for samples in [1, 4, 16] {
-        if let Some(card) = Card::new(samples)? {
+        if let Some(card) = card {
             let (knob, order) = (samples as usize, Order::Rounded);
-            add(CARD.to_owned(), knob, order, Box::new(card));
+            add(
+                CARD.to_owned(),
+                knob,
+                order,
+                Box::new(OnCard::new(card, samples)),
+            );
         }
     }
     for &(samples, stamps) in stamps(options.quick) {

@@ -10,6 +10,8 @@ use glam::DVec2;
 use render::cpu::Rasterizer;
 use render::gpu::{AdapterKind, GpuError, Offscreen};
 use render::{Drawing, Order, Picture};
+use std::cell::RefCell;
+use std::rc::Rc;
 use tiny_skia::PathBuilder;
 use vello_cpu::color::{AlphaColor, Srgb};
 use vello_cpu::kurbo::{BezPath, Point};
@@ -74,35 +76,47 @@ impl Contender for Sweep {
 }
 
 /// The exact sweep on a graphics card, from a drawing in the CPU's memory to a picture there.
-pub struct Card {
-    card: Offscreen,
+pub struct OnCard {
+    /// Shared by all who draw on it: a device of each one's own would take the card's memory.
+    card: Rc<RefCell<Offscreen>>,
     samples: u32,
     picture: Option<Picture>,
+    seconds_within: Option<f64>,
 }
 
-impl Card {
-    /// On a real graphics card, with that many samples a pixel; nothing where there is none.
+impl OnCard {
+    /// A real graphics card for several to draw on; nothing where there is none.
     ///
     /// # Errors
     ///
     /// When there is one that can't be used.
-    pub fn new(samples: u32) -> Result<Option<Self>, BenchError> {
+    pub fn card() -> Result<Option<Rc<RefCell<Offscreen>>>, BenchError> {
         match Offscreen::open(AdapterKind::Hardware) {
-            Ok(card) => Ok(Some(Self {
-                card,
-                samples,
-                picture: None,
-            })),
+            Ok(card) => Ok(Some(Rc::new(RefCell::new(card)))),
             Err(GpuError::NoAdapter { .. }) => Ok(None),
             Err(error) => Err(error.to_string().into()),
         }
     }
+
+    /// On that card, with that many samples a pixel.
+    #[must_use]
+    pub fn new(card: &Rc<RefCell<Offscreen>>, samples: u32) -> Self {
+        Self {
+            card: Rc::clone(card),
+            samples,
+            picture: None,
+            seconds_within: None,
+        }
+    }
 }
 
-impl Contender for Card {
+impl Contender for OnCard {
     fn draw(&mut self, drawing: &Drawing) -> Result<(), BenchError> {
-        let drawn = self.card.draw_strokes(drawing, self.samples);
+        let mut card = self.card.borrow_mut();
+        let drawn = card.draw_strokes(drawing, self.samples);
         self.picture = Some(drawn.map_err(|error| error.to_string())?);
+        let parts = card.stats().milliseconds;
+        self.seconds_within = parts.map(|parts| 1e-3 * parts.iter().sum::<f64>());
         Ok(())
     }
 
@@ -111,8 +125,7 @@ impl Contender for Card {
     }
 
     fn seconds_within(&self) -> Option<f64> {
-        let [strokes, bins, tiles] = self.card.stats().milliseconds?;
-        Some(1e-3 * (strokes + bins + tiles))
+        self.seconds_within
     }
 }
 
