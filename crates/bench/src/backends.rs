@@ -197,6 +197,10 @@ pub fn card_stages(before: f64, card: CardTimes) -> Vec<f64> {
 /// Of [`STAGES`] those that a card times by its own clock.
 const ON_CARD: [&str; 3] = ["gpu:strokes", "gpu:bins", "gpu:tiles"];
 
+/// What a reader of [`rows`] must know of them.
+pub const ON_CARD_ARE_THE_LEAST: &str = "gpu:strokes, gpu:bins and gpu:tiles: by the card's own clock, which goes up and \
+    down: the least of all frames";
+
 /// A row for the median of each stage that has times, of what a card times by itself for the least, as its clock goes up and down; `error` is that of
 /// the card's picture.
 #[must_use]

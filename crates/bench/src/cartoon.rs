@@ -8,7 +8,7 @@
 //! Hair falls on a still bust, and the camera goes round it, so that nothing can be reused.
 
 use crate::BenchError;
-use crate::backends::{Backends, Card};
+use crate::backends::{Backends, Card, ON_CARD_ARE_THE_LEAST};
 use crate::frame;
 use crate::results::{self, Row};
 use crate::targets::{Found, Limit, Target};
@@ -140,6 +140,7 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
             "whole frames and their stages, {SAMPLES} samples a pixel, medians of {frames} frames"
         ),
         "method: a backend and its stage; knob: samples".to_owned(),
+        ON_CARD_ARE_THE_LEAST.to_owned(),
     ];
     comments.extend(results::machine(options.threads, &["wgpu"]));
     let text = results::csv("cartoon", &comments, &measured.rows);

@@ -4,7 +4,8 @@
 
 use crate::BenchError;
 use crate::backends::{
-    Backends, CPU_STAGES, Card, STAGES, Times, card_stages, cpu_stages, rows, share_that_differs,
+    Backends, CPU_STAGES, Card, ON_CARD_ARE_THE_LEAST, STAGES, Times, card_stages, cpu_stages,
+    rows, share_that_differs,
 };
 use crate::character;
 use crate::results::{self, Row};
@@ -199,8 +200,7 @@ impl Options {
             ),
             "method: a backend and its stage; simulate and paths are of both; knob: samples"
                 .to_owned(),
-            "gpu:strokes, gpu:bins and gpu:tiles: by the card's own clock, which goes up and down: the least of all frames"
-                .to_owned(),
+            ON_CARD_ARE_THE_LEAST.to_owned(),
             "error of gpu: share of pixels that differ from the CPU's by more than 2/255"
                 .to_owned(),
             format!(

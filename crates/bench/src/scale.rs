@@ -2,7 +2,8 @@
 
 use crate::BenchError;
 use crate::backends::{
-    Backends, Card, STAGES, Times, card_stages, cpu_stages, rows, share_that_differs,
+    Backends, Card, ON_CARD_ARE_THE_LEAST, STAGES, Times, card_stages, cpu_stages, rows,
+    share_that_differs,
 };
 use crate::results::{self, Row};
 use crate::targets::{Found, Limit, Target};
@@ -95,6 +96,7 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
             "strands of {POINTS} points around a head, 960 x 720, {SAMPLES} samples a pixel; every one moves"
         ),
         "method: a backend and its stage; knob: strands".to_owned(),
+        ON_CARD_ARE_THE_LEAST.to_owned(),
         "error of gpu: share of pixels that differ from the CPU's by more than 2/255".to_owned(),
         format!(
             "graphics card: {}",

@@ -300,6 +300,8 @@ fn comments(scenes: &[TestDrawing], options: &Options) -> Vec<String> {
          pixel",
         "stamping-4, -8, -16: the source's method in the source's order with that many samples a \
          pixel; knob: stamps between two joints",
+        "gpu-sweep: the same on a graphics card, from memory to memory; gpu-sweep-on-card: what of it \
+         the card took in its last picture, by its own clock, which goes up and down",
         "vello-*: knob: worker threads beside the caller's (0: that alone); tiny-skia-*: one thread",
         "*-segments: an outline each segment, *-strokes: each stroke; filled in painter's order, far \
          strands first, in linear colours",
