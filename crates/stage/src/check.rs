@@ -179,6 +179,9 @@ impl<'r> Preset<'r> {
             ("hair", "file") if load::is_style(path) => {
                 return self.check_text(files, file, check_style);
             }
+            ("hair", "file") => hair_io::read_hair(path, &HairOptions::default())
+                .map(drop)
+                .map_err(|error| load::with_styles(error).into()),
             ("hair", _) => check_hair(path),
             ("head", _) => hair_io::read_head(path, None, None)
                 .map(drop)

@@ -472,7 +472,7 @@ pub(crate) fn strands(
 }
 
 /// The error of a format that is not read, with styles among those that are.
-fn with_styles(error: HairError) -> HairError {
+pub(crate) fn with_styles(error: HairError) -> HairError {
     match error {
         HairError::Format { path, found, .. } => HairError::Format {
             path,

@@ -38,6 +38,7 @@ fn scripts_styles_and_bakes_are_opened() {
         "(version: 1,\nshapes: [(time: 0, hair: \"hiar.strands.ron\")])",
     );
     write("bob.style.ron", "(\n    version: 1,\n    fringe: [],\n)");
+    write("hair.fbx", "Kaydara");
     fs::write(folder.join("latin.motion.ron"), b"(version: 1) // \xe9").unwrap();
 
     let hair = "file: \"hair.strands.ron\"";
@@ -58,6 +59,11 @@ fn scripts_styles_and_bakes_are_opened() {
             hair,
             "latin.motion.ron",
             "look.ron:3:16: file: latin.motion.ron:1:",
+        ),
+        (
+            "file: \"hair.fbx\"",
+            "good.motion.ron",
+            "look.ron:2:14: file: hair.fbx: \".fbx\" is not a format that this build reads; it reads TressFX (.tfx), own strands (.strands.ron) and hair styles (.style.ron)",
         ),
         (
             "file: \"bob.style.ron\"",
