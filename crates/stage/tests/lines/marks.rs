@@ -1,0 +1,87 @@
+//! Marks along lines: those of the sequence, on their edges.
+
+use super::*;
+
+#[test]
+fn marks_are_those_of_the_sequence_whichever_frame_is_asked_for() {
+    let lines = "(name: \"rim\", kind: \"contour, crease\")";
+    let make = || things("(shape: wings)", lines, CHALK).unwrap();
+    let at = |stage: &mut Stage, frame: u32| {
+        stage.advance_to(frame as f32 / 24.0).unwrap();
+        let frame = stage.frame().unwrap();
+        assert_eq!(frame.marks.len(), frame.paths.len());
+        (frame.marks.to_vec(), drawn(&frame).pixels)
+    };
+    let mut all = make();
+    let sequence: Vec<_> = (0..6).map(|frame| at(&mut all, frame)).collect();
+    assert!(at(&mut make(), 5) == sequence[5], "alone");
+    assert!(at(&mut all, 2) == sequence[2], "back");
+    assert!(at(&mut all, 5) == sequence[5], "and forth");
+    assert!(at(&mut all, 5) == sequence[5], "again");
+}
+
+/// As `--time` asks for them, and as what is blurred by motion is made of.
+#[test]
+fn moments_between_frames_follow_the_one_before_and_are_not_followed() {
+    let lines = "(name: \"rim\", kind: \"contour, crease\")";
+    let make = || things("(shape: wings)", lines, CHALK).unwrap();
+    let at = |stage: &mut Stage, frame: f32| {
+        stage.advance_to(frame / 24.0).unwrap();
+        let frame = stage.frame().unwrap();
+        assert_eq!(frame.marks.len(), frame.paths.len());
+        (frame.paths.center.to_vec(), frame.marks.to_vec())
+    };
+    let mut all = make();
+    let sequence: Vec<_> = (0..6).map(|frame| at(&mut all, frame as f32)).collect();
+    let moment = at(&mut make(), 3.5);
+    let mut stage = make();
+    for earlier in [0.0, 1.25, 3.0, 3.25, 3.75] {
+        at(&mut stage, earlier);
+    }
+    assert!(at(&mut stage, 3.5) == moment, "after others");
+    assert!(at(&mut stage, 4.0) == sequence[4], "the frame after it");
+    assert!(at(&mut stage, 3.5) == moment, "back");
+    assert!(at(&mut stage, 5.0) == sequence[5], "and forth");
+    // On it is neither what the frame before it was nor the one after.
+    assert!(moment != sequence[3] && moment != sequence[4]);
+}
+
+#[test]
+fn what_leaves_no_marks_is_not_followed() {
+    let lines = "(name: \"rim\", kind: \"contour, crease\")";
+    let mut stage = things("(shape: wings)", lines, INK).unwrap();
+    assert!(stage.frame().unwrap().marks.is_empty());
+}
+
+#[test]
+fn marks_stay_on_edges_whatever_hides_them() {
+    // The cube before it moves on the screen as the camera does; an edge's marks are those of the edge.
+    let meshes = "(shape: cube, name: \"far\"), (shape: cube, name: \"near\", size: 0.5, at: (0.3, 0.2, 0.9))";
+    let lines = "(name: \"rim\", of: \"far\", kind: \"crease\")";
+    let mut stage = things(meshes, lines, CHALK).unwrap();
+    let height_m = stage.head().height_m;
+    let mut seen = |yaw: f32| -> Vec<(Vec3, f32)> {
+        stage.scene.camera.yaw = yaw;
+        let frame = stage.frame().unwrap();
+        let positions = frame.paths.position.iter().copied();
+        positions.zip(frame.marks.iter().copied()).collect()
+    };
+    let (before, after) = (seen(10.0), seen(16.0));
+    let (mut compared, mut stayed) = (0, 0);
+    for (place, mark) in &before {
+        let near = after
+            .iter()
+            .filter(|(other, _)| other.distance(*place) < 0.012);
+        let off = near.map(|(other, at)| (at - mark).abs() * height_m - other.distance(*place));
+        if let Some(least) = off.reduce(f32::min) {
+            compared += 1;
+            stayed += usize::from(least < 1e-3);
+        }
+    }
+    // But where edges meet, of which one may be seen in one picture alone.
+    assert!(compared > 50, "{compared}");
+    assert!(
+        stayed as f32 > 0.95 * compared as f32,
+        "{stayed} of {compared}"
+    );
+}
