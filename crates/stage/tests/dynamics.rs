@@ -639,6 +639,48 @@ fn hair_that_is_thrown_over_a_shoulder_is_recalled() {
     }
 }
 
+/// Where the head stays turned, a shoulder lies between hair and its place for good: what is recalled comes to rest there, also in frames that are long.
+#[test]
+fn what_is_recalled_does_not_tremble() {
+    let mut registry = Registry::new();
+    effects_builtin::register(&mut registry).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let text = fs::read_to_string(presets().join("long-pink.ron")).unwrap();
+    for angle in [70, -70] {
+        let held = folder.path().join(format!("{angle}.motion.ron"));
+        let script =
+            format!("(version: 1, moves: [(move: turn, start: 0.1, length: 0.4, angle: {angle})])");
+        fs::write(&held, script).unwrap();
+        for recall in ["4", "6", "8"] {
+            let mut preset = Preset::parse("look.ron", &text, &registry).unwrap();
+            preset.set("dynamics.recall", recall).unwrap();
+            preset.set("scene.fps", "24").unwrap();
+            let files = Files {
+                preset_folder: presets(),
+                motion: Some(held.clone()),
+                ..Files::default()
+            };
+            let scene = Scene::load(&preset, &files).unwrap();
+            let mut motion = Motion::new();
+            let mut at = |frame: i32| {
+                motion.advance_to(&scene, frame as f32 / 24.0).unwrap();
+                motion.points(&scene, 0).to_vec()
+            };
+            let frames: Vec<_> = (216..=240).map(&mut at).collect();
+            let steps = frames.windows(2).map(|pair| farthest(&pair[0], &pair[1]));
+            let most_m = steps.fold(0.0, f32::max);
+            println!(
+                "{angle} degrees, recall {recall}: {:.2} mm a frame",
+                most_m * 1e3
+            );
+            assert!(
+                most_m < 1e-4,
+                "{angle} degrees, recall {recall}: {most_m} m"
+            );
+        }
+    }
+}
+
 /// Hair that streams in a gust lies far from its style, too, and yet is not held there: recalled or not, it goes the same way.
 #[test]
 fn what_streams_in_a_wind_is_hardly_recalled() {

@@ -303,23 +303,38 @@ impl<T: Number> Turned<T> {
     }
 }
 
-/// The pull on particles that lie so far from their goals, in m, where the sum of the squares of their speed against these and of that of the air is
-/// `restless`, in m^2/s^2, and `up` is against gravity: its stiffness, and how far above the goal it pulls to. See
-/// [`Params::recall`](crate::Params::recall).
-#[inline(always)]
-fn recalled<T: Number>(batch: &Batch, way: Vec3<T>, restless: T, up: Vec3<T>) -> (T, Vec3<T>) {
-    let (zero, one) = (T::splat(0.0), T::splat(1.0));
-    let far = way.length_squared().sqrt();
-    let share = far / batch.recall_from.load::<T>() - one;
-    let share = T::choose(share.less(one), share, one);
-    let aside = way - up.scale(way.dot(up));
-    let lift = up.scale(aside.length_squared().sqrt() * T::splat(OVER));
-    let whole = (way + lift).length_squared().sqrt();
-    let calm = one + restless * T::splat(1.0 / (CALM * CALM));
-    let pull = batch.recall.load::<T>() * share / (whole * calm);
-    let pulls = T::splat(LEAST_WAY).less(whole);
-    let pull = T::choose(pulls, pull, zero);
-    (T::choose(zero.less(share), pull, zero), lift)
+/// What pulls particles back that lie far from their goals. See [`Params::recall`](crate::Params::recall).
+struct Recall<T> {
+    /// In 1/s^2, and how far above the goal it pulls to.
+    stiffness: T,
+    lift: Vec3<T>,
+    /// By how much the pull grows with the distance, in 1/s^2.
+    steepness: T,
+}
+
+impl<T: Number> Recall<T> {
+    /// For the ways to the goals, in m, at the start of the step and in its middle, where the sum of the squares of the particles' speed against these
+    /// and of that of the air is `restless`, in m^2/s^2, and `up` is against gravity.
+    #[inline(always)]
+    fn new(batch: &Batch, [way, middle]: [Vec3<T>; 2], restless: T, up: Vec3<T>) -> Self {
+        let (zero, one) = (T::splat(0.0), T::splat(1.0));
+        let from = batch.recall_from.load::<T>();
+        let share = way.length_squared().sqrt() / from - one;
+        let part = share.less(one);
+        let aside = middle - up.scale(middle.dot(up));
+        let lift = up.scale(aside.length_squared().sqrt() * T::splat(OVER));
+        let whole = (middle + lift).length_squared().sqrt();
+        let calm = one + restless * T::splat(1.0 / (CALM * CALM));
+        let most = batch.recall.load::<T>() / calm;
+        let recalls = |of: T| T::choose(zero.less(share), of, zero);
+        let pulls = T::splat(LEAST_WAY).less(whole);
+        let stiffness = T::choose(pulls, most * T::choose(part, share, one) / whole, zero);
+        Self {
+            stiffness: recalls(stiffness),
+            lift,
+            steepness: recalls(T::choose(part, most / from, zero)),
+        }
+    }
 }
 
 #[inline(always)]
@@ -394,15 +409,27 @@ fn pull_to_goals<T: Number, const RECALLS: bool>(
                 let air = air.velocity(place).scale(batch.particles[k].wind.load());
                 restless = restless + air.length_squared();
             }
-            let (stiffness, lift) = recalled(batch, way, restless, up);
+            let middle = way - speed.scale(T::splat(0.5 * drive.dt));
+            let recall = Recall::new(batch, [way, middle], restless, up);
             spring.pull(
-                stiffness,
-                before + lift,
-                now + lift,
+                recall.stiffness,
+                before + recall.lift,
+                now + recall.lift,
                 acceleration,
                 GAMMA,
                 drive.dt,
             );
+            // What comes nearer within the step is pulled by less already there: a pull that lags behind makes tips tremble.
+            let (here, moved) = (state.y[k].load::<T>(), now - before);
+            let of = |share: f64| (here + moved.scale(T::splat(share))).scale(recall.steepness);
+            spring.add(Spring {
+                stiffness: recall.steepness,
+                mid: of(GAMMA),
+                end: of(1.0),
+                rate: T::splat(0.0),
+                flow_mid: Vec3::zero(),
+                flow_end: Vec3::zero(),
+            });
         }
         state.goal[k] = now.store();
     }
