@@ -1,0 +1,173 @@
+//! Hair that is recalled from where it lies far from its style: `recall` of `dynamics`.
+
+#![allow(
+    clippy::print_stdout,
+    reason = "a test shows the figures that it holds"
+)]
+
+use effects::Registry;
+use glam::Vec3;
+use stage::{Files, Motion, Preset, Scene};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn presets() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../presets")
+}
+
+/// A look's hair as a script moves it.
+struct Moved {
+    scene: Scene,
+    motion: Motion,
+}
+
+impl Moved {
+    /// Recalled as the look has it itself, or by so much.
+    fn new(look: &str, script: &Path, recall: Option<&str>) -> Self {
+        let mut registry = Registry::new();
+        effects_builtin::register(&mut registry).unwrap();
+        effects_cartoon::register(&mut registry).unwrap();
+        effects_surface::register(&mut registry).unwrap();
+        let text = fs::read_to_string(presets().join(format!("{look}.ron"))).unwrap();
+        let mut preset = Preset::parse("look.ron", &text, &registry).unwrap();
+        preset.set("scene.fps", "24").unwrap();
+        if let Some(recall) = recall {
+            preset.set("dynamics.recall", recall).unwrap();
+        }
+        let files = Files {
+            preset_folder: presets(),
+            motion: Some(script.to_owned()),
+            ..Files::default()
+        };
+        Self {
+            scene: Scene::load(&preset, &files).unwrap(),
+            motion: Motion::new(),
+        }
+    }
+
+    fn points_at(&mut self, time_s: f32) -> Vec<Vec3> {
+        self.motion.advance_to(&self.scene, time_s).unwrap();
+        self.motion.points(&self.scene, 0).to_vec()
+    }
+
+    /// How far hair is at most from where it was styled at some times, in head heights.
+    fn left_at<const N: usize>(&mut self, times_s: [f32; N]) -> [f32; N] {
+        let rest = self.points_at(0.0);
+        let height_m = self.scene.head().height_m;
+        times_s.map(|time_s| farthest(&self.points_at(time_s), &rest) / height_m)
+    }
+}
+
+fn farthest(a: &[Vec3], b: &[Vec3]) -> f32 {
+    let apart = a.iter().zip(b).map(|(a, b)| a.distance(*b));
+    apart.fold(0.0, f32::max)
+}
+
+/// A script in `folder` by which the head turns so far, in degrees, and back until 1.3 s.
+fn there_and_back(folder: &Path, angle: i32) -> PathBuf {
+    let path = folder.join(format!("{angle}.motion.ron"));
+    let script = format!(
+        "(version: 1, moves: [(move: turn, start: 0.1, length: 0.4, angle: {angle}), (move: turn, start: 0.9, length: 0.4, angle: {})])",
+        -angle
+    );
+    fs::write(&path, script).unwrap();
+    path
+}
+
+/// Hair that a quick turn has thrown over a shoulder stays there, unless it is recalled: then it is back on its own side a second after the head is.
+#[test]
+fn hair_that_is_thrown_over_a_shoulder_is_recalled() {
+    let folder = tempfile::tempdir().unwrap();
+    let turn = |angle| (there_and_back(folder.path(), angle), 1.3);
+    let looks_back = presets().join("motions/head-turn.motion.ron");
+    for (script, end_s) in [(looks_back, 3.1), turn(70), turn(-70), turn(90)] {
+        // A second after the head is back, and once all is at rest: not recalled, as much as the look has itself, and by more.
+        let times_s = [end_s + 1.0, end_s + 8.0];
+        let [free, recalled @ ..] = [Some("0"), None, Some("4")]
+            .map(|recall| Moved::new("long-pink", &script, recall).left_at(times_s));
+        println!(
+            "{}: {free:.2?} head heights from where it was styled after 1 and 8 s; recalled {recalled:.2?}",
+            script.display()
+        );
+        assert!(free[1] > 0.5, "{free:?}");
+        for [soon, later] in recalled {
+            assert!(soon < 0.2 && later < 0.01, "{recalled:?}");
+        }
+    }
+}
+
+/// No look that recalls its hair leaves any of it on a shoulder for good.
+#[test]
+fn all_looks_that_recall_get_their_hair_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let files = fs::read_dir(presets()).unwrap();
+    let paths = files.map(|file| file.unwrap().path());
+    let recalls = |path: &PathBuf| {
+        let is_preset = path.extension().is_some_and(|ending| ending == "ron");
+        is_preset && fs::read_to_string(path).unwrap().contains("recall: ")
+    };
+    let looks: Vec<PathBuf> = paths.filter(recalls).collect();
+    assert!(looks.len() >= 7, "{looks:?}");
+    for angle in [70, -70, 90, -90] {
+        let script = there_and_back(folder.path(), angle);
+        for look in &looks {
+            let look = look.file_stem().unwrap().to_str().unwrap();
+            let [soon, later] = Moved::new(look, &script, None).left_at([2.3, 9.3]);
+            println!(
+                "{look}, {angle} degrees: {soon:.2} and {later:.2} head heights after 1 and 8 s"
+            );
+            assert!(later < 0.05, "{look}, {angle} degrees: {later}");
+        }
+    }
+}
+
+/// Where the head stays turned, a shoulder lies between hair and its place for good: what is recalled comes to rest there, also in frames that are long.
+#[test]
+fn what_is_recalled_does_not_tremble() {
+    let folder = tempfile::tempdir().unwrap();
+    for angle in [70, -70] {
+        let held = folder.path().join(format!("{angle}.motion.ron"));
+        let script =
+            format!("(version: 1, moves: [(move: turn, start: 0.1, length: 0.4, angle: {angle})])");
+        fs::write(&held, script).unwrap();
+        for recall in ["4", "6", "8"] {
+            let mut moved = Moved::new("long-pink", &held, Some(recall));
+            let frames = (216..=240).map(|frame| moved.points_at(frame as f32 / 24.0));
+            let frames: Vec<_> = frames.collect();
+            let steps = frames.windows(2).map(|pair| farthest(&pair[0], &pair[1]));
+            let most_m = steps.fold(0.0, f32::max);
+            println!(
+                "{angle} degrees, recall {recall}: {:.2} mm a frame",
+                most_m * 1e3
+            );
+            assert!(
+                most_m < 1e-4,
+                "{angle} degrees, recall {recall}: {most_m} m"
+            );
+        }
+    }
+}
+
+/// Hair that streams in a gust lies far from its style, too, and yet is not held there: recalled or not, it goes the same way.
+#[test]
+fn what_streams_in_a_wind_is_hardly_recalled() {
+    let gust = presets().join("motions/gust.motion.ron");
+    let mut height_m = 0.0;
+    let [free, recalled] = ["0", "4"].map(|recall| {
+        let mut moved = Moved::new("long-pink", &gust, Some(recall));
+        height_m = moved.scene.head().height_m;
+        [0.0, 1.0, 1.3, 2.0].map(|time_s| moved.points_at(time_s))
+    });
+    let mean = |a: &[Vec3], b: &[Vec3]| {
+        let apart = a.iter().zip(b).map(|(a, b)| a.distance(*b));
+        apart.sum::<f32>() / (a.len() as f32 * height_m)
+    };
+    for i in 1..4 {
+        let streams = mean(&free[i], &free[0]);
+        let apart = mean(&free[i], &recalled[i]);
+        println!(
+            "{streams:.3} head heights from the style on average; recalled hair {apart:.3} from there"
+        );
+        assert!(i == 3 || apart < 0.2 * streams, "{apart} of {streams}");
+    }
+}
