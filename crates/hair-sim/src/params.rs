@@ -144,7 +144,7 @@ pub struct Params {
     /// metre. It is damped critically.
     pub goal: Profile,
     /// Pull of every particle that has come to lie far from its place in the goal shape, such as on the other side of a shoulder, in m/s^2, 0 to 1e4, whatever
-    /// the distance. It goes up and over what lies between, is damped critically, and fades where hair moves against the shape, and where air
+    /// the distance. It goes up and over what lies between, is damped, critically where it pulls in full, and fades where hair moves against the shape, and where air
     /// blows: what swings or streams is hardly pulled.
     pub recall: f64,
     /// How far from its place a particle may lie without being recalled, in m, 1e-6 to 1e3; at twice that it is pulled in full.
