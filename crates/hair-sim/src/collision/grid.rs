@@ -8,11 +8,12 @@ use crate::{
     pose::Pose,
 };
 
+mod build;
+
+use build::{Inside, Points};
+
 /// The largest number of grid points.
 const MOST_POINTS: usize = 1 << 26;
-
-/// How many cells around a triangle get exact distances.
-const BAND: f64 = 2.0;
 
 /// Distances from a mesh at the points of a regular grid, negative inside.
 ///
@@ -100,26 +101,17 @@ impl SignedDistance {
         } = Extent::of(points, triangles, cell)?;
         let corner = |i: u32| points[i as usize].as_dvec3();
         let triangles: Vec<[DVec3; 3]> = triangles.iter().map(|t| t.map(corner)).collect();
-        let mut build = Build {
-            grid: Self {
-                origin,
-                cell,
-                size,
-                last: DVec3::from_array(size.map(|n| (n - 1) as f64)),
-                values: vec![f32::MAX; size[0] * size[1] * size[2]],
-                center,
-                radius,
-                print: 0,
-            },
-            nearest: vec![u32::MAX; size[0] * size[1] * size[2]],
-            triangles: &triangles,
-        };
-        build.near();
-        build.spread();
-        build.sign(inside);
-        let mut grid = build.grid;
-        grid.print = Hash::of(&grid.values);
-        Ok(grid)
+        let values = Points { origin, cell, size }.distances(&triangles, inside);
+        Ok(Self {
+            origin,
+            cell,
+            size,
+            last: DVec3::from_array(size.map(|n| (n - 1) as f64)),
+            print: Hash::of(&values),
+            values,
+            center,
+            radius,
+        })
     }
 
     /// Whether a mesh has distances in cells of `cell` metres, as [`Self::new`] says, which takes much longer.
@@ -149,10 +141,6 @@ impl SignedDistance {
 
     fn index(&self, x: usize, y: usize, z: usize) -> usize {
         (z * self.size[1] + y) * self.size[0] + x
-    }
-
-    fn place(&self, x: usize, y: usize, z: usize) -> DVec3 {
-        self.origin + DVec3::new(x as f64, y as f64, z as f64) * self.cell
     }
 
     /// The cell that holds `at`, the place in it from 0 to 1, and the square of how far outside of the grid `at` is.
@@ -314,18 +302,6 @@ impl<'a> Placed<'a> {
     }
 }
 
-/// How it is told what is inside.
-#[derive(Clone, Copy)]
-enum Inside {
-    /// Rays cross the mesh an odd number of times.
-    Odd,
-    /// Rays leave more than they enter.
-    Wound,
-}
-
-/// Of the six rays from a point along the axes so many say inside where it is.
-const INSIDE: u8 = 4;
-
 /// How far a grid goes.
 struct Extent {
     origin: DVec3,
@@ -378,177 +354,6 @@ impl Extent {
             radius,
         })
     }
-}
-
-struct Build<'a> {
-    grid: SignedDistance,
-    nearest: Vec<u32>,
-    triangles: &'a [[DVec3; 3]],
-}
-
-impl Build<'_> {
-    fn offer(&mut self, i: usize, at: DVec3, triangle: u32) {
-        let distance = distance_to(at, &self.triangles[triangle as usize]) as f32;
-        if distance < self.grid.values[i] {
-            self.grid.values[i] = distance;
-            self.nearest[i] = triangle;
-        }
-    }
-
-    /// Exact distances around every triangle.
-    fn near(&mut self) {
-        for t in 0..self.triangles.len() {
-            let [a, b, c] = self.triangles[t];
-            let cell = self.grid.cell;
-            let low = (a.min(b).min(c) - self.grid.origin) / cell - BAND;
-            let high = (a.max(b).max(c) - self.grid.origin) / cell + BAND;
-            let from = low.max(DVec3::ZERO);
-            let range =
-                |from: f64, to: f64, size: usize| from as usize..=(to as usize).min(size - 1);
-            for z in range(from.z, high.z, self.grid.size[2]) {
-                for y in range(from.y, high.y, self.grid.size[1]) {
-                    for x in range(from.x, high.x, self.grid.size[0]) {
-                        let i = self.grid.index(x, y, z);
-                        self.offer(i, self.grid.place(x, y, z), t as u32);
-                    }
-                }
-            }
-        }
-    }
-
-    /// Passes nearest triangles on, in sweeps along all diagonals (Zhao 2005's order).
-    fn spread(&mut self) {
-        let [nx, ny, nz] = self.grid.size;
-        for _ in 0..2 {
-            for diagonal in 0..8 {
-                let order = |bit: usize, i: usize, n: usize| {
-                    if diagonal & bit == 0 { i } else { n - 1 - i }
-                };
-                for k in 0..nz {
-                    for j in 0..ny {
-                        for i in 0..nx {
-                            let (x, y, z) = (order(1, i, nx), order(2, j, ny), order(4, k, nz));
-                            self.take_from_neighbours(x, y, z, diagonal);
-                        }
-                    }
-                }
-            }
-        }
-    }
-
-    fn take_from_neighbours(&mut self, x: usize, y: usize, z: usize, diagonal: usize) {
-        let i = self.grid.index(x, y, z);
-        let before = |bit: usize, v: usize, n: usize| {
-            if diagonal & bit == 0 {
-                v.checked_sub(1)
-            } else {
-                Some(v + 1).filter(|&v| v < n)
-            }
-        };
-        let [nx, ny, nz] = self.grid.size;
-        let neighbours = [
-            before(1, x, nx).map(|x| self.grid.index(x, y, z)),
-            before(2, y, ny).map(|y| self.grid.index(x, y, z)),
-            before(4, z, nz).map(|z| self.grid.index(x, y, z)),
-        ];
-        for n in neighbours.into_iter().flatten() {
-            let triangle = self.nearest[n];
-            if triangle != u32::MAX && triangle != self.nearest[i] {
-                self.offer(i, self.grid.place(x, y, z), triangle);
-            }
-        }
-    }
-
-    /// Negative where most rays say inside.
-    fn sign(&mut self, inside: Inside) {
-        let mut votes = vec![0_u8; self.grid.values.len()];
-        for axis in 0..3 {
-            self.vote(inside, axis, &mut votes);
-        }
-        for (value, votes) in self.grid.values.iter_mut().zip(votes) {
-            if votes >= INSIDE {
-                *value = -*value;
-            }
-        }
-    }
-
-    fn vote(&self, inside: Inside, axis: usize, votes: &mut [u8]) {
-        let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-        let size = self.grid.size;
-        // Rays a little off the grid, so that they meet no edge of a mesh that lies on it.
-        let shift = 1.1e-4 * self.grid.cell;
-        let mut crossings: Vec<Vec<(f64, i32)>> = vec![Vec::new(); size[u] * size[v]];
-        for corners in self.triangles {
-            let p = corners.map(|c| c - self.grid.origin);
-            let low = |k: usize| p[0][k].min(p[1][k]).min(p[2][k]) / self.grid.cell;
-            let high = |k: usize| p[0][k].max(p[1][k]).max(p[2][k]) / self.grid.cell;
-            for j in (low(v).max(0.0) as usize)..=(high(v) as usize).min(size[v] - 1) {
-                for i in (low(u).max(0.0) as usize)..=(high(u) as usize).min(size[u] - 1) {
-                    let a = i as f64 * self.grid.cell + shift;
-                    let b = j as f64 * self.grid.cell + 1.7 * shift;
-                    if let Some(crossing) = crossing(p, axis, u, v, a, b) {
-                        crossings[j * size[u] + i].push(crossing);
-                    }
-                }
-            }
-        }
-        for j in 0..size[v] {
-            for i in 0..size[u] {
-                let line = &mut crossings[j * size[u] + i];
-                line.sort_by(|a, b| a.0.total_cmp(&b.0));
-                let whole: i32 = line.iter().map(|crossing| crossing.1).sum();
-                let (mut passed, mut within) = (0, 0);
-                for k in 0..size[axis] {
-                    let at = k as f64 * self.grid.cell;
-                    while let Some((_, enters)) = line.get(passed).filter(|(d, _)| *d < at) {
-                        passed += 1;
-                        within += enters;
-                    }
-                    let own = match inside {
-                        Inside::Odd => 2 * (passed % 2) as u8,
-                        // Those behind it, seen from the other side, it would leave as often as it enters.
-                        Inside::Wound => u8::from(within > 0) + u8::from(within > whole),
-                    };
-                    let mut cell = [0; 3];
-                    (cell[axis], cell[u], cell[v]) = (k, i, j);
-                    votes[self.grid.index(cell[0], cell[1], cell[2])] += own;
-                }
-            }
-        }
-    }
-}
-
-/// Where a line along `axis` through (a, b) of the other two crosses a triangle, and whether it enters there, 1, or leaves, -1.
-fn crossing(p: [DVec3; 3], axis: usize, u: usize, v: usize, a: f64, b: f64) -> Option<(f64, i32)> {
-    let area = |q: DVec3, r: DVec3| (q[u] - a) * (r[v] - b) - (q[v] - b) * (r[u] - a);
-    let w = [area(p[1], p[2]), area(p[2], p[0]), area(p[0], p[1])];
-    let (enters, leaves) = (w.iter().all(|&w| w < 0.0), w.iter().all(|&w| w > 0.0));
-    let sum = w[0] + w[1] + w[2];
-    ((enters || leaves) && sum != 0.0).then(|| {
-        let depth = (w[0] * p[0][axis] + w[1] * p[1][axis] + w[2] * p[2][axis]) / sum;
-        (depth, if enters { 1 } else { -1 })
-    })
-}
-
-/// The distance from a point to a triangle (Ericson 2005, 5.1.5: by the regions of Voronoi).
-fn distance_to(p: DVec3, &[a, b, c]: &[DVec3; 3]) -> f64 {
-    let edge = |from: DVec3, to: DVec3| {
-        let along = to - from;
-        let squared = along.length_squared();
-        let t = if squared > 0.0 {
-            ((p - from).dot(along) / squared).clamp(0.0, 1.0)
-        } else {
-            0.0
-        };
-        (p - from - along * t).length_squared()
-    };
-    let normal = (b - a).cross(c - a);
-    let beside = |from: DVec3, to: DVec3| (to - from).cross(p - from).dot(normal) >= 0.0;
-    let squared = normal.length_squared();
-    if squared > 0.0 && beside(a, b) && beside(b, c) && beside(c, a) {
-        return ((p - a).dot(normal)).abs() / squared.sqrt();
-    }
-    edge(a, b).min(edge(b, c)).min(edge(c, a)).sqrt()
 }
 
 #[cfg(test)]

@@ -92,6 +92,11 @@ impl Number for Avx2 {
         unsafe { _mm256_movemask_pd(condition.0) == (1 << LANES) - 1 }
     }
     #[inline(always)]
+    fn any(condition: Self) -> bool {
+        // SAFETY: see the module.
+        unsafe { _mm256_movemask_pd(condition.0) != 0 }
+    }
+    #[inline(always)]
     fn choose(condition: Self, yes: Self, no: Self) -> Self {
         // SAFETY: see the module.
         Self(unsafe { _mm256_blendv_pd(no.0, yes.0, condition.0) })

@@ -25,6 +25,8 @@ pub(crate) trait Number:
     fn condition(mask: &Mask) -> Self::Condition;
     /// Whether it holds for each.
     fn all(condition: Self::Condition) -> bool;
+    /// Whether it holds for any.
+    fn any(condition: Self::Condition) -> bool;
     /// `yes` where the condition holds, else `no`.
     fn choose(condition: Self::Condition, yes: Self, no: Self) -> Self;
     /// Calls `work`, compiled for the instructions of these numbers, as a function of its own: one phase of a step. All that it
@@ -66,6 +68,10 @@ impl Number for Lane {
     #[inline(always)]
     fn all(condition: Mask) -> bool {
         !condition.not().any()
+    }
+    #[inline(always)]
+    fn any(condition: Mask) -> bool {
+        condition.any()
     }
     #[inline(always)]
     fn choose(condition: Mask, yes: Self, no: Self) -> Self {

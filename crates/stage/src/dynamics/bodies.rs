@@ -47,10 +47,11 @@ impl Bodies {
             };
             distances(&points, &triangles, cell * height_m).ok()
         };
-        Self {
-            head: half(HEAD_ENDS, true, HEAD_CELL),
-            shoulders: half(SHOULDERS_END, false, BODY_CELL),
-        }
+        let (head, shoulders) = rayon::join(
+            || half(HEAD_ENDS, true, HEAD_CELL),
+            || half(SHOULDERS_END, false, BODY_CELL),
+        );
+        Self { head, shoulders }
     }
 
     /// All bodies in a step of this script between two times (seconds), at which the figure stands so.
