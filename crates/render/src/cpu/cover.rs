@@ -76,6 +76,22 @@ impl Area {
     pub(super) fn meets(&self, other: &Self) -> bool {
         self.low.cmple(other.high).all() && other.low.cmple(self.high).all()
     }
+
+    /// The rows of a grid that it may reach.
+    #[inline(always)]
+    fn rows(&self, grid: &Grid) -> Range<usize> {
+        let [low, high] =
+            [self.low.y, self.high.y].map(|y| grid.cell(y - grid.origin.y, grid.down));
+        low..high + 1
+    }
+
+    /// The columns of a grid that it may reach.
+    #[inline(always)]
+    fn columns(&self, grid: &Grid) -> Range<usize> {
+        let [low, high] =
+            [self.low.x, self.high.x].map(|x| grid.cell(x - grid.origin.x, grid.across));
+        low..high + 1
+    }
 }
 
 /// What lies between two joints, so far around the line between them at most.
@@ -97,6 +113,7 @@ pub(super) struct Swath {
 
 impl Swath {
     /// That around the line between two places on the screen (px), no nearer at each than that, 1/m, and between them than what runs linearly.
+    #[inline(always)]
     pub(super) fn new([from, to]: [Vec2; 2], reach_px: f32, nearness: [f32; 2]) -> Self {
         let way = to - from;
         let farthest = greater(from.abs().max_element(), to.abs().max_element());
@@ -125,22 +142,17 @@ impl Swath {
         }
     }
 
-    /// The rows of a grid that it may reach.
-    fn rows(&self, grid: &Grid) -> Range<usize> {
-        let [low, high] =
-            [self.low.y, self.high.y].map(|y| grid.cell(y - grid.origin.y, grid.down));
-        low..high + 1
-    }
-
-    /// The columns of a grid that it may reach.
-    fn columns(&self, grid: &Grid) -> Range<usize> {
-        let [low, high] =
-            [self.low.x, self.high.x].map(|x| grid.cell(x - grid.origin.x, grid.across));
-        low..high + 1
+    /// The box around it.
+    #[inline(always)]
+    fn area(&self) -> Area {
+        Area {
+            low: self.low,
+            high: self.high,
+        }
     }
 
     /// The columns that it may reach in a row, and how near it is there at most.
-    #[inline]
+    #[inline(always)]
     fn in_row(&self, grid: &Grid, row: usize) -> (Range<usize>, f32) {
         let half = 0.5 * grid.cell_px;
         let y = grid.origin.y + row as f32 * grid.cell_px + half - self.from.y;
@@ -168,13 +180,14 @@ impl Swath {
 
 impl Grid {
     /// The cell at so many pixels from the grid's beginning, of so many; the first or the last one beyond them.
-    #[inline]
+    #[inline(always)]
     fn cell(&self, place: f32, count: usize) -> usize {
-        // Also of what is farther than can be counted.
-        ((greater(place, 0.0) / self.cell_px) as usize).min(count - 1)
+        // Also of what is farther than can be counted. In 32 bits, which a picture's side fits in: they turn into numbers faster.
+        ((greater(place, 0.0) / self.cell_px) as i32 as usize).min(count - 1)
     }
 
     /// Where it ends, pixels.
+    #[inline(always)]
     fn end(&self) -> Vec2 {
         self.origin + Vec2::new(self.across as f32, self.down as f32) * self.cell_px
     }
@@ -254,7 +267,7 @@ impl Cover {
             false => 0,
         };
         let Level { grid, nearness: of } = &self.levels[level];
-        swath.rows(grid).all(|row| {
+        swath.area().rows(grid).all(|row| {
             let (columns, nearness) = swath.in_row(grid, row);
             let cells = &of[row * grid.across..][columns];
             let least = nearness * (1.0 + MARGIN);

@@ -2,7 +2,8 @@
 //! picture shows. Clumps are put one behind the other from the nearest on, and those whose strokes are hidden already, which are most, change
 //! nothing and need not be looked at again.
 
-use super::{Cover, FARTHEST_PX, Grid, LONGEST_PX, Level, MARGIN, Swath};
+use super::{Area, Cover, FARTHEST_PX, Grid, LONGEST_PX, Level, MARGIN, Swath};
+use crate::cpu::instructions::Instructions;
 use crate::cpu::tile::{greater, lesser};
 use crate::drawing::{Brush, Coverage, Disc, Surface};
 use glam::{DVec2, Vec2};
@@ -21,6 +22,12 @@ const MOST: usize = 1 << 24;
 
 /// Sides of larger cells, pixels: where all of one is covered, that is known at once.
 const LARGE: usize = 4;
+
+/// Links of a clump that are looked at together first: most hair is hidden, and so are its neighbours.
+const GROUP: usize = 8;
+
+/// Samples that are looked at together: those of as many neighbouring pixels as have so many.
+const TOGETHER: usize = 16;
 
 /// The clump of a run of joints.
 pub(in crate::cpu) struct Clump<'a> {
@@ -44,25 +51,27 @@ pub(in crate::cpu) struct Scene<'a> {
 }
 
 impl Scene<'_> {
-    /// Whether all of a swath that is in the picture is in the part.
-    fn holds(&self, swath: &Swath) -> bool {
+    /// Whether all of an area that is in the picture is in the part.
+    #[inline(always)]
+    fn holds(&self, area: &Area) -> bool {
         let [columns, rows] = &self.part;
         let size = self.size.map(|side| side as f32);
         let within = |low: f32, high: f32, part: &Range<usize>, size: f32| {
             lesser(greater(low, 0.0), size) >= part.start as f32
                 && greater(lesser(high, size), 0.0) <= part.end as f32
         };
-        within(swath.low.x, swath.high.x, columns, size[0])
-            && within(swath.low.y, swath.high.y, rows, size[1])
+        within(area.low.x, area.high.x, columns, size[0])
+            && within(area.low.y, area.high.y, rows, size[1])
     }
 }
 
 /// Samples of some rows of pixels, `N` in each.
 struct Band<'a, const N: usize> {
     grid: Grid,
-    /// Where in a pixel they lie.
-    x: [f32; N],
-    y: [f32; N],
+    /// Where in a pixel they lie, again for each of those that are looked at together; and which pixel of these each is in.
+    x: [f32; TOGETHER],
+    y: [f32; TOGETHER],
+    pixel: [f32; TOGETHER],
     /// Of each sample of each pixel, row by row, what hides all that lies deeper, 1/m.
     nearness: &'a mut [[f32; N]],
     /// The least of each larger cell.
@@ -116,29 +125,17 @@ impl Cover {
             let top = rows.start + number * rows_of_band;
             let mut band = Band {
                 grid: grid(top, down),
-                x: std::array::from_fn(|k| samples[k].x),
-                y: std::array::from_fn(|k| samples[k].y),
+                x: std::array::from_fn(|k| samples[k % N].x),
+                y: std::array::from_fn(|k| samples[k % N].y),
+                pixel: std::array::from_fn(|k| (k / N) as f32),
                 nearness,
                 large: vec![0.0; across.div_ceil(LARGE) * down.div_ceil(LARGE)],
             };
-            band.put_surfaces(scene.surfaces);
-            band.fill_large(0..across, 0..down);
             let mut seen = vec![false; hidden.len()];
-            for clump in scene.clumps {
-                for (link, pair) in clump.discs.windows(2).enumerate() {
-                    let joint = clump.first + link;
-                    let swath = swath(joint);
-                    let is_held = scene.holds(&swath);
-                    seen[joint] |= !is_held;
-                    if band.is_beside(&swath) || is_held && band.hides(&swath) {
-                        continue;
-                    }
-                    seen[joint] = true;
-                    if link < clump.covering {
-                        band.put([&pair[0], &pair[1]], scene.brush, scene.edge_depth_m);
-                    }
-                }
-            }
+            Instructions::best().run(
+                #[inline(always)]
+                || band.put_all(scene, swath, &mut seen),
+            );
             seen
         });
         let seen: Vec<Vec<bool>> = seen.collect();
@@ -159,8 +156,122 @@ impl Cover {
     }
 }
 
+/// What lies between two discs, seen from the first one's middle.
+struct Between {
+    /// To the other's middle, px, and the same over the square of its length.
+    way: Vec2,
+    along: Vec2,
+    /// Shares of the way: where what it covers begins and ends, and how much farther along the disc is that covers a place.
+    ends: [f32; 2],
+    beyond: f32,
+    /// The radius there, px, and how much larger the other is.
+    radius: f32,
+    wider: f32,
+    /// How near it is there, 1/m, and how much nearer the other.
+    nearness: f32,
+    rise: f32,
+    edge_depth_m: f32,
+}
+
+impl Between {
+    /// Covers those of some places (px) that it reaches and that show what is deeper. Whether there are any.
+    #[inline(always)]
+    fn cover(
+        &self,
+        x: &[f32; TOGETHER],
+        y: &[f32; TOGETHER],
+        nearness: &mut [f32; TOGETHER],
+    ) -> bool {
+        let mut is_nearer = 0;
+        for k in 0..TOGETHER {
+            let foot = x[k] * self.along.x + y[k] * self.along.y;
+            // Of the disc there its middle is as far from the sample as this.
+            let u = lesser(greater(foot + self.beyond, 0.0), 1.0);
+            let (x, y) = (x[k] - u * self.way.x, y[k] - u * self.way.y);
+            let squared = x * x + y * y;
+            let radius = greater(self.radius + u * self.wider, 0.0);
+            let near = self.nearness + u * self.rise;
+            let ratio = squared / greater(radius * radius, 1e-12);
+            let covers = (ratio <= 1.0) & (foot >= self.ends[0]) & (foot <= self.ends[1]);
+            // An edge lies deeper by the square of its place, at most by this.
+            let edge = near - self.edge_depth_m * near * near * ratio;
+            let shows = covers & (edge > nearness[k]);
+            nearness[k] = if shows { edge } else { nearness[k] };
+            is_nearer |= u32::from(shows);
+        }
+        is_nearer != 0
+    }
+}
+
+/// The area of some swaths, and how near they are at most, 1/m.
+#[inline(always)]
+fn around(swaths: &[Swath]) -> (Area, f32) {
+    let mut area = swaths[0].area();
+    let mut nearest = swaths[0].nearest;
+    for swath in &swaths[1..] {
+        area.low = area.low.min(swath.low);
+        area.high = area.high.max(swath.high);
+        nearest = greater(nearest, swath.nearest);
+    }
+    (area, nearest)
+}
+
+/// Whether all that hides lies before what is no nearer than this, 1/m.
+#[inline(always)]
+fn all_nearer(hiding: &[f32], nearness: f32) -> bool {
+    let least = nearness * (1.0 + MARGIN);
+    let mut all = true;
+    for hiding in hiding {
+        all &= *hiding > least;
+    }
+    all
+}
+
+/// The lesser of two numbers, neither NaN.
+#[inline(always)]
+fn lesser_f64(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
+}
+
 impl<const N: usize> Band<'_, N> {
+    /// Adds surfaces and clumps, and tells of which joints something is seen.
+    #[inline(always)]
+    fn put_all(&mut self, scene: &Scene, swath: &impl Fn(usize) -> Swath, seen: &mut [bool]) {
+        self.put_surfaces(scene.surfaces);
+        self.fill_large(0..self.grid.across, 0..self.grid.down);
+        let mut swaths = Vec::with_capacity(GROUP);
+        for clump in scene.clumps {
+            let count = clump.discs.len().saturating_sub(1);
+            for start in (0..count).step_by(GROUP) {
+                let links = start..count.min(start + GROUP);
+                swaths.clear();
+                for link in links.clone() {
+                    swaths.push(swath(clump.first + link));
+                }
+                let (area, nearest) = around(&swaths);
+                if scene.holds(&area) && (self.is_beside(&area) || self.hides_all(&area, nearest)) {
+                    continue;
+                }
+                for (link, swath) in links.zip(&swaths) {
+                    let area = swath.area();
+                    let is_held = scene.holds(&area);
+                    let joint = clump.first + link;
+                    seen[joint] |= !is_held;
+                    if self.is_beside(&area) || is_held && self.hides(swath) {
+                        continue;
+                    }
+                    seen[joint] = true;
+                    if link < clump.covering {
+                        let pair = [&clump.discs[link], &clump.discs[link + 1]];
+                        self.put(pair, scene.brush, scene.edge_depth_m);
+                    }
+                }
+            }
+        }
+    }
+
     /// Adds what lies between two discs.
+    #[inline(always)]
     fn put(&mut self, [a, b]: [&Disc; 2], brush: Brush, edge_depth_m: f32) {
         let grid = self.grid;
         let radii = [a, b].map(|disc| disc.radius - THINNER_PX);
@@ -178,7 +289,8 @@ impl<const N: usize> Band<'_, N> {
             return;
         }
         let swath = Swath::new([a.center, b.center], reach_px, nearness);
-        if self.is_beside(&swath) {
+        let area = swath.area();
+        if self.is_beside(&area) {
             return;
         }
         let along = way / greater(length * length, f32::MIN_POSITIVE);
@@ -190,81 +302,120 @@ impl<const N: usize> Band<'_, N> {
                 ([0.0, 1.0 - beyond], beyond)
             }
         };
-        let (wider, rise) = (radii[1] - radii[0], nearness[1] - nearness[0]);
-        let rows = swath.rows(&grid);
+        let between = Between {
+            along,
+            way,
+            ends,
+            beyond,
+            radius: radii[0],
+            wider: radii[1] - radii[0],
+            nearness: nearness[0],
+            rise: nearness[1] - nearness[0],
+            edge_depth_m,
+        };
+        let (all_columns, rows) = (area.columns(&grid), area.rows(&grid));
+        let is_narrow = all_columns.len() <= TOGETHER / N;
+        let mut is_nearer = false;
         for row in rows.clone() {
-            let (columns, _) = swath.in_row(&grid, row);
+            let columns = match is_narrow {
+                true => all_columns.clone(),
+                false => swath.in_row(&grid, row).0,
+            };
             let top = grid.origin.y + row as f32 - from.y;
             let left = grid.origin.x + columns.start as f32 - from.x;
-            let pixels = &mut self.nearness[row * grid.across..][columns];
-            for (i, pixel) in pixels.iter_mut().enumerate() {
-                for k in 0..N {
-                    let (x, y) = (left + i as f32 + self.x[k], top + self.y[k]);
-                    let foot = x * along.x + y * along.y;
-                    // Of the disc there its middle is as far from the sample as this.
-                    let u = lesser(greater(foot + beyond, 0.0), 1.0);
-                    let (x, y) = (x - u * way.x, y - u * way.y);
-                    let squared = x * x + y * y;
-                    let radius = greater(radii[0] + u * wider, 0.0);
-                    let near = nearness[0] + u * rise;
-                    let ratio = squared / greater(radius * radius, 1e-12);
-                    let covers = (ratio <= 1.0) & (foot >= ends[0]) & (foot <= ends[1]);
-                    // An edge lies deeper by the square of its place, at most by this.
-                    let edge = near - edge_depth_m * near * near * ratio;
-                    pixel[k] = if covers & (edge > pixel[k]) {
-                        edge
-                    } else {
-                        pixel[k]
-                    };
+            let samples = self.nearness[row * grid.across..][..grid.across].as_flattened_mut();
+            let mut column = columns.start;
+            while column < columns.end {
+                // At the row's end with some of those before it once more, which changes nothing.
+                let column = {
+                    let own = column.min(grid.across.saturating_sub(TOGETHER / N));
+                    column += TOGETHER / N;
+                    own
+                };
+                let right = column as f32 - columns.start as f32;
+                let (mut x, mut y) = ([0.0; TOGETHER], [0.0; TOGETHER]);
+                for k in 0..TOGETHER {
+                    x[k] = left + (right + self.pixel[k]) + self.x[k];
+                    y[k] = top + self.y[k];
+                }
+                let own = &mut samples[column * N..];
+                if let Some(own) = own.first_chunk_mut() {
+                    is_nearer |= between.cover(&x, &y, own);
+                } else {
+                    let mut all = [f32::INFINITY; TOGETHER];
+                    all[..own.len()].copy_from_slice(own);
+                    is_nearer |= between.cover(&x, &y, &mut all);
+                    own.copy_from_slice(&all[..own.len()]);
                 }
             }
         }
-        let columns = swath.columns(&grid);
-        self.fill_large(columns, rows);
+        if is_nearer {
+            self.fill_large(all_columns, rows);
+        }
     }
 
     /// Whether none of a swath is there.
-    fn is_beside(&self, swath: &Swath) -> bool {
-        swath.high.cmplt(self.grid.origin).any() || swath.low.cmpgt(self.grid.end()).any()
+    #[inline(always)]
+    fn is_beside(&self, area: &Area) -> bool {
+        area.high.cmplt(self.grid.origin).any() || area.low.cmpgt(self.grid.end()).any()
+    }
+
+    /// Whether all larger cells that a part of the picture reaches show what is nearer than this, 1/m.
+    #[inline(always)]
+    fn hides_all(&self, area: &Area, nearest: f32) -> bool {
+        let (rows, columns) = (area.rows(&self.grid), area.columns(&self.grid));
+        let large_across = self.grid.across.div_ceil(LARGE);
+        // Loops, because closures in iterators are not sure to be compiled for their caller's instruction set.
+        for row in rows.start / LARGE..rows.end.div_ceil(LARGE) {
+            let cells = &self.large[row * large_across..][..large_across];
+            let cells = &cells[columns.start / LARGE..columns.end.div_ceil(LARGE)];
+            if !all_nearer(cells, nearest) {
+                return false;
+            }
+        }
+        true
     }
 
     /// Whether all samples in a swath's pixels show what is nearer.
+    #[inline(always)]
     fn hides(&self, swath: &Swath) -> bool {
-        let grid = &self.grid;
-        let mut rows = swath.rows(grid);
-        let columns = swath.columns(grid);
-        let least = swath.nearest * (1.0 + MARGIN);
-        let large_across = grid.across.div_ceil(LARGE);
-        let mut large = rows.start / LARGE..rows.end.div_ceil(LARGE);
-        let is_covered = large.all(|row| {
-            let cells = &self.large[row * large_across..][..large_across];
-            let cells = &cells[columns.start / LARGE..columns.end.div_ceil(LARGE)];
-            cells
-                .iter()
-                .fold(true, |all, covered| all & (*covered > least))
-        });
-        is_covered
-            || rows.all(|row| {
-                let (columns, nearness) = swath.in_row(grid, row);
-                let pixels = &self.nearness[row * grid.across..][columns];
-                let least = nearness * (1.0 + MARGIN);
-                let samples = pixels.as_flattened().iter();
-                samples.fold(true, |all, covered| all & (*covered > least))
-            })
+        let (grid, area) = (&self.grid, swath.area());
+        if self.hides_all(&area, swath.nearest) {
+            return true;
+        }
+        let rows = area.rows(grid);
+        for row in rows {
+            let (columns, nearness) = swath.in_row(grid, row);
+            let pixels = &self.nearness[row * grid.across..][columns];
+            if !all_nearer(pixels.as_flattened(), nearness) {
+                return false;
+            }
+        }
+        true
     }
 
     /// Works out the larger cells anew that hold some columns and rows.
+    #[inline(always)]
     fn fill_large(&mut self, columns: Range<usize>, rows: Range<usize>) {
         let Grid { across, down, .. } = self.grid;
         let large_across = across.div_ceil(LARGE);
         for row in rows.start / LARGE..rows.end.div_ceil(LARGE) {
             for column in columns.start / LARGE..columns.end.div_ceil(LARGE) {
                 let own = column * LARGE..((column + 1) * LARGE).min(across);
-                let mut least = [f32::INFINITY; N];
+                let mut least = [f32::INFINITY; TOGETHER];
                 for row in row * LARGE..((row + 1) * LARGE).min(down) {
-                    for pixel in &self.nearness[row * across..][own.clone()] {
-                        for k in 0..N {
-                            least[k] = lesser(least[k], pixel[k]);
+                    let samples = self.nearness[row * across..][own.clone()].as_flattened();
+                    for samples in samples.chunks(TOGETHER) {
+                        match samples.first_chunk::<TOGETHER>() {
+                            Some(samples) => {
+                                for k in 0..TOGETHER {
+                                    least[k] = lesser(least[k], samples[k]);
+                                }
+                            }
+                            None => {
+                                let pairs = least.iter_mut().zip(samples);
+                                pairs.for_each(|(least, sample)| *least = lesser(*least, *sample));
+                            }
                         }
                     }
                 }
@@ -275,6 +426,7 @@ impl<const N: usize> Band<'_, N> {
     }
 
     /// Takes what the nearest surface hides at each sample; nothing where it may have holes, and hair may be behind it.
+    #[inline(always)]
     fn put_surfaces(&mut self, surfaces: &[Surface]) {
         let has_holes = |surface: &Surface| {
             let texture = surface.texture.as_ref();
@@ -295,6 +447,7 @@ impl<const N: usize> Band<'_, N> {
         }
     }
 
+    #[inline(always)]
     fn put_triangle(
         &mut self,
         corners: [Vec2; 3],
@@ -335,29 +488,39 @@ impl<const N: usize> Band<'_, N> {
         for row in rows {
             for column in columns.clone() {
                 let pixel = row * across + column;
-                for k in 0..N {
-                    let place = Vec2::new(column as f32 + self.x[k], row as f32 + self.y[k]);
-                    let within = sides.map(|(slope, start, _)| slope.dot(place.as_dvec2()) - start);
-                    if within.iter().any(|within| *within < SMALLER_PX) {
-                        continue;
+                let mut within = [[0.0; N]; 3];
+                for (within, (slope, start, _)) in within.iter_mut().zip(&sides) {
+                    for k in 0..N {
+                        let place = Vec2::new(column as f32 + self.x[k], row as f32 + self.y[k]);
+                        within[k] = slope.dot(place.as_dvec2()) - start;
                     }
-                    let shares = [0, 1, 2].map(|i| (within[i] * sides[i].2) as f32 * depths[i]);
-                    let depth = greater(shares.iter().sum::<f32>(), least);
+                }
+                let mut is_within = [false; N];
+                for k in 0..N {
+                    let least = lesser_f64(lesser_f64(within[0][k], within[1][k]), within[2][k]);
+                    is_within[k] = least >= SMALLER_PX;
+                }
+                if is_within == [false; N] {
+                    continue;
+                }
+                let (nearest, covered) = (&mut nearest[pixel], &mut self.nearness[pixel]);
+                for k in (0..N).filter(|&k| is_within[k]) {
+                    let share = |i: usize| (within[i][k] * sides[i].2) as f32 * depths[i];
+                    let depth = greater(share(0) + share(1) + share(2), least);
                     // Of two that are one beside the other the lesser counts.
-                    let is_nearer = depth > nearest[pixel][k] * (1.0 + MARGIN);
-                    let is_as_near = depth * (1.0 + MARGIN) >= nearest[pixel][k];
+                    let is_nearer = depth > nearest[k] * (1.0 + MARGIN);
+                    let is_as_near = depth * (1.0 + MARGIN) >= nearest[k];
                     // What is beyond a margin behind it shows nowhere.
                     let hides = match margin_m < 0.0 {
                         true => depth / (1.0 - margin_m * depth),
                         false => depth,
                     };
-                    let covered = &mut self.nearness[pixel][k];
                     if is_nearer {
-                        *covered = hides;
+                        covered[k] = hides;
                     } else if is_as_near {
-                        *covered = lesser(*covered, hides);
+                        covered[k] = lesser(covered[k], hides);
                     }
-                    nearest[pixel][k] = greater(nearest[pixel][k], depth);
+                    nearest[k] = greater(nearest[k], depth);
                 }
             }
         }
