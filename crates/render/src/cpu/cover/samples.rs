@@ -26,9 +26,6 @@ const LARGE: usize = 4;
 /// Links of a clump that are looked at together first: most hair is hidden, and so are its neighbours.
 const GROUP: usize = 8;
 
-/// Samples that are looked at together: those of as many neighbouring pixels as have so many.
-const TOGETHER: usize = 16;
-
 /// The clump of a run of joints.
 pub(in crate::cpu) struct Clump<'a> {
     /// The first of them.
@@ -68,10 +65,9 @@ impl Scene<'_> {
 /// Samples of some rows of pixels, `N` in each.
 struct Band<'a, const N: usize> {
     grid: Grid,
-    /// Where in a pixel they lie, again for each of those that are looked at together; and which pixel of these each is in.
-    x: [f32; TOGETHER],
-    y: [f32; TOGETHER],
-    pixel: [f32; TOGETHER],
+    /// Where in a pixel they lie.
+    x: [f32; N],
+    y: [f32; N],
     /// Of each sample of each pixel, row by row, what hides all that lies deeper, 1/m.
     nearness: &'a mut [[f32; N]],
     /// The least of each larger cell.
@@ -125,9 +121,8 @@ impl Cover {
             let top = rows.start + number * rows_of_band;
             let mut band = Band {
                 grid: grid(top, down),
-                x: std::array::from_fn(|k| samples[k % N].x),
-                y: std::array::from_fn(|k| samples[k % N].y),
-                pixel: std::array::from_fn(|k| (k / N) as f32),
+                x: std::array::from_fn(|k| samples[k].x),
+                y: std::array::from_fn(|k| samples[k].y),
                 nearness,
                 large: vec![0.0; across.div_ceil(LARGE) * down.div_ceil(LARGE)],
             };
@@ -176,14 +171,9 @@ struct Between {
 impl Between {
     /// Covers those of some places (px) that it reaches and that show what is deeper. Whether there are any.
     #[inline(always)]
-    fn cover(
-        &self,
-        x: &[f32; TOGETHER],
-        y: &[f32; TOGETHER],
-        nearness: &mut [f32; TOGETHER],
-    ) -> bool {
+    fn cover<const N: usize>(&self, x: &[f32; N], y: &[f32; N], nearness: &mut [f32; N]) -> bool {
         let mut is_nearer = 0;
-        for k in 0..TOGETHER {
+        for k in 0..N {
             let foot = x[k] * self.along.x + y[k] * self.along.y;
             // Of the disc there its middle is as far from the sample as this.
             let u = lesser(greater(foot + self.beyond, 0.0), 1.0);
@@ -218,13 +208,15 @@ fn around(swaths: &[Swath]) -> (Area, f32) {
 
 /// Whether all that hides lies before what is no nearer than this, 1/m.
 #[inline(always)]
-fn all_nearer(hiding: &[f32], nearness: f32) -> bool {
+fn all_nearer<const N: usize>(hiding: &[[f32; N]], nearness: f32) -> bool {
     let least = nearness * (1.0 + MARGIN);
-    let mut all = true;
+    let mut all = [u32::MAX; N];
     for hiding in hiding {
-        all &= *hiding > least;
+        for k in 0..N {
+            all[k] &= if hiding[k] > least { u32::MAX } else { 0 };
+        }
     }
-    all
+    all == [u32::MAX; N]
 }
 
 /// The lesser of two numbers, neither NaN.
@@ -314,39 +306,18 @@ impl<const N: usize> Band<'_, N> {
             edge_depth_m,
         };
         let (all_columns, rows) = (area.columns(&grid), area.rows(&grid));
-        let is_narrow = all_columns.len() <= TOGETHER / N;
         let mut is_nearer = false;
         for row in rows.clone() {
-            let columns = match is_narrow {
-                true => all_columns.clone(),
-                false => swath.in_row(&grid, row).0,
-            };
+            let (columns, _) = swath.in_row(&grid, row);
             let top = grid.origin.y + row as f32 - from.y;
             let left = grid.origin.x + columns.start as f32 - from.x;
-            let samples = self.nearness[row * grid.across..][..grid.across].as_flattened_mut();
-            let mut column = columns.start;
-            while column < columns.end {
-                // At the row's end with some of those before it once more, which changes nothing.
-                let column = {
-                    let own = column.min(grid.across.saturating_sub(TOGETHER / N));
-                    column += TOGETHER / N;
-                    own
-                };
-                let right = column as f32 - columns.start as f32;
-                let (mut x, mut y) = ([0.0; TOGETHER], [0.0; TOGETHER]);
-                for k in 0..TOGETHER {
-                    x[k] = left + (right + self.pixel[k]) + self.x[k];
-                    y[k] = top + self.y[k];
+            let pixels = &mut self.nearness[row * grid.across..][columns];
+            for (i, pixel) in pixels.iter_mut().enumerate() {
+                let (mut x, mut y) = ([0.0; N], [0.0; N]);
+                for k in 0..N {
+                    (x[k], y[k]) = (left + i as f32 + self.x[k], top + self.y[k]);
                 }
-                let own = &mut samples[column * N..];
-                if let Some(own) = own.first_chunk_mut() {
-                    is_nearer |= between.cover(&x, &y, own);
-                } else {
-                    let mut all = [f32::INFINITY; TOGETHER];
-                    all[..own.len()].copy_from_slice(own);
-                    is_nearer |= between.cover(&x, &y, &mut all);
-                    own.copy_from_slice(&all[..own.len()]);
-                }
+                is_nearer |= between.cover(&x, &y, pixel);
             }
         }
         if is_nearer {
@@ -369,7 +340,7 @@ impl<const N: usize> Band<'_, N> {
         for row in rows.start / LARGE..rows.end.div_ceil(LARGE) {
             let cells = &self.large[row * large_across..][..large_across];
             let cells = &cells[columns.start / LARGE..columns.end.div_ceil(LARGE)];
-            if !all_nearer(cells, nearest) {
+            if !all_nearer(cells.as_chunks::<1>().0, nearest) {
                 return false;
             }
         }
@@ -387,7 +358,7 @@ impl<const N: usize> Band<'_, N> {
         for row in rows {
             let (columns, nearness) = swath.in_row(grid, row);
             let pixels = &self.nearness[row * grid.across..][columns];
-            if !all_nearer(pixels.as_flattened(), nearness) {
+            if !all_nearer(pixels, nearness) {
                 return false;
             }
         }
@@ -402,20 +373,11 @@ impl<const N: usize> Band<'_, N> {
         for row in rows.start / LARGE..rows.end.div_ceil(LARGE) {
             for column in columns.start / LARGE..columns.end.div_ceil(LARGE) {
                 let own = column * LARGE..((column + 1) * LARGE).min(across);
-                let mut least = [f32::INFINITY; TOGETHER];
+                let mut least = [f32::INFINITY; N];
                 for row in row * LARGE..((row + 1) * LARGE).min(down) {
-                    let samples = self.nearness[row * across..][own.clone()].as_flattened();
-                    for samples in samples.chunks(TOGETHER) {
-                        match samples.first_chunk::<TOGETHER>() {
-                            Some(samples) => {
-                                for k in 0..TOGETHER {
-                                    least[k] = lesser(least[k], samples[k]);
-                                }
-                            }
-                            None => {
-                                let pairs = least.iter_mut().zip(samples);
-                                pairs.for_each(|(least, sample)| *least = lesser(*least, *sample));
-                            }
+                    for pixel in &self.nearness[row * across..][own.clone()] {
+                        for k in 0..N {
+                            least[k] = lesser(least[k], pixel[k]);
                         }
                     }
                 }
