@@ -325,7 +325,7 @@ impl<const N: usize> Band<'_, N> {
         }
     }
 
-    /// Whether none of a swath is there.
+    /// Whether none of an area is there.
     #[inline(always)]
     fn is_beside(&self, area: &Area) -> bool {
         area.high.cmplt(self.grid.origin).any() || area.low.cmpgt(self.grid.end()).any()
