@@ -9,7 +9,7 @@ use super::shown::{NOTHING as SHOWS_NOTHING, Shown, TRIANGLE};
 use super::stroke::{NEARER, Placed, across};
 use super::tile::{
     Aligned, CELLS, CELLS_ACROSS, Cell, IdPlane, LANES, LaneMask, Lanes, Mask, NO_SAMPLES, NOTHING,
-    OneByOne, Plane, ROWS, Stack, Target, WIDTH, add, any, bits, both, cells, columns,
+    OneByOne, Plane, ROWS, Stack, StoreMask, Target, WIDTH, add, any, bits, both, cells, columns,
     columns_of_cells, id_plane, is_empty, least, lesser, overwrite, plane, select, without,
 };
 use super::{Frame, Worker};
@@ -246,9 +246,9 @@ impl Worker {
         if let (Some(replaced), Some(planes)) = (&decals.replaced, &decals.planes) {
             for row in 0..ROWS {
                 for cell in cells(row, columns(replaced, row)) {
-                    let lanes = cell.lanes(replaced);
+                    let lanes = StoreMask::new(&cell.lanes(replaced));
                     for (plane, color) in target.color.iter_mut().zip(&planes.color) {
-                        overwrite(&mut plane[cell.index], &color[cell.index], &lanes);
+                        lanes.store(&color[cell.index], &mut plane[cell.index]);
                     }
                 }
             }
@@ -434,9 +434,10 @@ impl Planes {
             let tells = (taken[k] == 0) | (ratio[k] < side_ratio[k] * NEARER);
             tells_side[k] &= select(tells, u32::MAX, 0);
         }
-        overwrite(&mut places.way[cell.index], &way, wins);
-        overwrite(&mut places.side[cell.index], &side, &tells_side);
-        overwrite(&mut places.side_ratio[cell.index], ratio, &tells_side);
+        StoreMask::new(wins).store(&way, &mut places.way[cell.index]);
+        let tells_side = StoreMask::new(&tells_side);
+        tells_side.store(&side, &mut places.side[cell.index]);
+        tells_side.store(ratio, &mut places.side_ratio[cell.index]);
     }
 
     /// Takes from the samples that a stroke fits those that its brush leaves bare.
@@ -553,7 +554,8 @@ impl Offer<'_> {
                     let is_nearer = (before[k] == 0) | (beside.ratio[k] < ratio[k]);
                     wins[k] &= select(is_nearer, u32::MAX, 0);
                 }
-                overwrite(&mut planes.ratio[cell.index], &beside.ratio, &wins);
+                let stored = StoreMask::new(&wins);
+                stored.store(&beside.ratio, &mut planes.ratio[cell.index]);
                 if self.brush.is_some() {
                     let nearer = Nearer {
                         fits: &fits,
@@ -564,7 +566,7 @@ impl Offer<'_> {
                     planes.put_places(cell, placed, nearer);
                 }
                 for (plane, color) in planes.color.iter_mut().zip(&beside.color) {
-                    overwrite(&mut plane[cell.index], color, &wins);
+                    stored.store(color, &mut plane[cell.index]);
                 }
                 cell.add_to(taken, &fits);
             }

@@ -1,6 +1,6 @@
 //! What painted samples are told of joints: mixed of two joints a cell at a time, and finished for a block of them.
 
-use super::tile::{LANES, LaneMask, Lanes, OneByOne, greater, overwrite, select};
+use super::tile::{LANES, LaneMask, Lanes, OneByOne, StoreMask, greater, select};
 use crate::painting::Painting;
 use effects::wgsl::{Vec3, vec3};
 use effects::{BLOCK, SampleBlock, SampleInput, SampleSet, Samples, Vectors};
@@ -142,9 +142,9 @@ impl Mixed {
         self.set = [[0; LANES]; SLOTS];
     }
 
-    /// Some samples of a slot lie so far on the way from a joint to the next.
+    /// Some samples of a slot lie so far on the way from a joint to the next. Where they are the `FIRST` of the slot, the others of it become anything.
     #[inline(always)]
-    pub(super) fn mix(
+    pub(super) fn mix<const FIRST: bool>(
         &mut self,
         slot: usize,
         rows: &JointRows,
@@ -155,9 +155,16 @@ impl Mixed {
         let mut rest = *way;
         for k in 0..LANES {
             rest[k] = 1.0 - way[k];
-            self.set[slot][k] |= lanes[k];
-            let of_joint = &mut self.joint[slot][k];
-            *of_joint = select(lanes[k] != 0, joint as u32, *of_joint);
+        }
+        let stored = StoreMask::new(lanes);
+        if FIRST {
+            self.set[slot] = *lanes;
+            self.joint[slot] = [joint as u32; LANES];
+        } else {
+            for k in 0..LANES {
+                self.set[slot][k] |= lanes[k];
+            }
+            stored.store_ids(&[joint as u32; LANES], &mut self.joint[slot]);
         }
         if rows.rows.is_empty() {
             return; // nothing is read of joints that is linear between them
@@ -170,7 +177,12 @@ impl Mixed {
             for k in 0..LANES {
                 mixed[k] = from[i] + way[k] * (to[i] - from[i]);
             }
-            overwrite(&mut self.planes[i][slot], &mixed, lanes);
+            let plane = &mut self.planes[i][slot];
+            if FIRST {
+                *plane = mixed;
+            } else {
+                stored.store(&mixed, plane);
+            }
         }
         for i in OneByOne::of(&(numbers..width)) {
             let i = i % WIDTH;
@@ -178,7 +190,12 @@ impl Mixed {
             for k in 0..LANES {
                 mixed[k] = from[i] * rest[k] + to[i] * way[k];
             }
-            overwrite(&mut self.planes[i][slot], &mixed, lanes);
+            let plane = &mut self.planes[i][slot];
+            if FIRST {
+                *plane = mixed;
+            } else {
+                stored.store(&mixed, plane);
+            }
         }
     }
 

@@ -4,8 +4,8 @@ use super::context::TileContext;
 use super::reached::Reached;
 use super::stroke::{Depths, Nearest, Placed, Places, Ratios, Shaded, Unasked};
 use super::tile::{
-    Cell, LANES, LaneMask, Lanes, Mask, ROWS, Target, any, cells, columns, greater, lesser,
-    overwrite,
+    Cell, LANES, LaneMask, Lanes, Mask, ROWS, StoreMask, Target, any, cells, columns, greater,
+    lesser,
 };
 
 /// How much deeper than its middle a stroke lies towards its edge.
@@ -174,7 +174,8 @@ pub(super) fn tell<const COLORED: bool>(
 
 #[inline(always)]
 pub(super) fn paint(target: &mut Target, cell: usize, color: &[Lanes; 3], samples: &LaneMask) {
+    let samples = StoreMask::new(samples);
     for (plane, color) in target.color.iter_mut().zip(color) {
-        overwrite(&mut plane[cell], color, samples);
+        samples.store(color, &mut plane[cell]);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::mixed::{Mixed, SLOTS};
 use super::shown::{Planes, TRIANGLE};
-use super::tile::{LANES, LaneMask, Target, bits, overwrite, select};
+use super::tile::{LANES, LaneMask, StoreMask, Target, any, bits, select};
 use super::{Frame, Worker};
 use crate::painting::PaintedLayer;
 use effects::Vectors;
@@ -108,11 +108,15 @@ impl Block {
     fn add(&mut self, frame: &Frame, joints: [usize; 2], way: &[f32; LANES], lanes: &LaneMask) {
         let slot = self.cells.len() - 1;
         let (_, samples) = &mut self.cells[slot];
+        let is_first = !any(samples);
         for k in 0..LANES {
             samples[k] |= lanes[k];
         }
         let rows = &frame.parts.joint_rows;
-        self.mixed.mix(slot, rows, joints, way, lanes);
+        match is_first {
+            true => (self.mixed).mix::<true>(slot, rows, joints, way, lanes),
+            false => (self.mixed).mix::<false>(slot, rows, joints, way, lanes),
+        }
     }
 
     /// Paints the samples that were gathered, and begins anew.
@@ -139,8 +143,9 @@ impl Block {
                 let is_finite = red[k].is_finite() & green[k].is_finite() & blue[k].is_finite();
                 finite[k] &= select(is_finite, u32::MAX, 0);
             }
+            let finite = StoreMask::new(&finite);
             for (plane, color) in target.color.iter_mut().zip([red, green, blue]) {
-                overwrite(&mut plane[cell], &color, &finite);
+                finite.store(&color, &mut plane[cell]);
             }
         }
     }

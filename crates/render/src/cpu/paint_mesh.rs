@@ -4,7 +4,7 @@ use super::decals;
 use super::shown::{NOTHING, Shown, TRIANGLE};
 use super::surface::Interpolated;
 use super::tile::{
-    Cell, IdPlane, LANES, LaneMask, Lanes, Plane, Stack, Target, any, bits, id_plane, overwrite,
+    Cell, IdPlane, LANES, LaneMask, Lanes, Plane, Stack, StoreMask, Target, any, bits, id_plane,
     plane, select,
 };
 use super::{Frame, Worker};
@@ -349,12 +349,13 @@ impl Block {
         }
         let cell = Cell::of_index(index);
         let inv_depth = self.inv_depth[slot];
+        let stored = StoreMask::new(lanes);
         for (axis, number) in corners.normal.iter().enumerate() {
             let mut numbers = number.slope.at_samples(stack).of(cell);
             for k in 0..LANES {
                 numbers[k] = number.clamp(numbers[k]);
             }
-            overwrite(&mut self.normal[axis][slot], &numbers, lanes);
+            stored.store(&numbers, &mut self.normal[axis][slot]);
         }
         let mut occlusion = [0.0; LANES];
         if let Some(number) = &corners.occlusion {
@@ -363,13 +364,13 @@ impl Block {
                 occlusion[k] = number.clamp(numbers[k]) / inv_depth[k];
             }
         }
-        put(&mut self.samples.occlusion, slot, &occlusion, lanes);
+        put(&mut self.samples.occlusion, slot, &occlusion, &stored);
         // Most cells show one surface: its colours go to all samples, as nobody asks for those of others.
         if self.colored_as == NOTHING {
             self.colored_as = corners.surface;
-            self.tell_colors::<true>(slot, corners, colors, index, lanes);
+            self.tell_colors::<true>(slot, corners, colors, index, &stored);
         } else if self.colored_as != corners.surface {
-            self.tell_colors::<false>(slot, corners, colors, index, lanes);
+            self.tell_colors::<false>(slot, corners, colors, index, &stored);
         }
     }
 
@@ -381,7 +382,7 @@ impl Block {
         corners: &Corners,
         colors: &[Plane; 3],
         index: usize,
-        lanes: &LaneMask,
+        lanes: &StoreMask,
     ) {
         let (own, shade) = (&mut self.samples.color, &mut self.samples.shade_color);
         for (numbers, factors) in [
@@ -430,6 +431,7 @@ impl Block {
                 let sum = painted[0][first + k] + painted[1][first + k] + painted[2][first + k];
                 finite[k] = sum.is_finite();
             }
+            let stored = StoreMask::new(&lanes);
             for axis in 0..3 {
                 let plane = &mut target.color[axis][cell];
                 let mut color = *plane;
@@ -441,7 +443,7 @@ impl Block {
                     let hair = color[k].clamp(0.0, 1.0);
                     color[k] = select(is_under, hair + (new - hair) * share, new);
                 }
-                overwrite(plane, &color, &lanes);
+                stored.store(&color, plane);
             }
         }
     }
@@ -573,11 +575,9 @@ impl Lens {
 
 /// Takes on the new numbers of a slot where `lanes` is set.
 #[inline(always)]
-fn put(block: &mut [f32; BLOCK], slot: usize, new: &Lanes, lanes: &LaneMask) {
-    let numbers = &mut block[slot * LANES..][..LANES];
-    for k in 0..LANES {
-        numbers[k] = select(lanes[k] != 0, new[k], numbers[k]);
-    }
+fn put(block: &mut [f32; BLOCK], slot: usize, new: &Lanes, lanes: &StoreMask) {
+    let (cells, _) = block.as_chunks_mut();
+    lanes.store(new, &mut cells[slot]);
 }
 
 /// The lanes whose numbers are as wanted.

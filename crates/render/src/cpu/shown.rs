@@ -1,9 +1,7 @@
 //! What the samples of a tile show: triangles, and points on the axes of strokes.
 
 use super::stroke::Places;
-use super::tile::{
-    IdPlane, LANES, LaneMask, Lanes, Plane, id_plane, overwrite, plane, put, select,
-};
+use super::tile::{IdPlane, LANES, LaneMask, Lanes, Plane, StoreMask, id_plane, plane, select};
 
 /// A sample of nothing, in [`Shown::what`].
 pub(super) const NOTHING: u32 = u32::MAX;
@@ -46,7 +44,8 @@ impl Shown {
     #[inline(always)]
     pub(super) fn put_triangle(&mut self, cell: usize, index: u32, samples: &LaneMask) {
         if let Some(planes) = &mut self.0 {
-            put(&mut planes.what[cell], &[index | TRIANGLE; LANES], samples);
+            let samples = StoreMask::new(samples);
+            samples.store_ids(&[index | TRIANGLE; LANES], &mut planes.what[cell]);
         }
     }
 
@@ -59,9 +58,10 @@ impl Shown {
         samples: &LaneMask,
     ) {
         if let Some(planes) = &mut self.0 {
-            put(&mut planes.what[cell], &places.index, samples);
-            overwrite(&mut planes.way[cell], &places.way, samples);
-            overwrite(&mut planes.v[cell], &places.across(), samples);
+            let samples = StoreMask::new(samples);
+            samples.store_ids(&places.index, &mut planes.what[cell]);
+            samples.store(&places.way, &mut planes.way[cell]);
+            samples.store(&places.across(), &mut planes.v[cell]);
         }
     }
 
@@ -79,7 +79,7 @@ impl Shown {
             for k in 0..LANES {
                 outside[k] = select(across[k] < 0.0, -1.0, 1.0);
             }
-            overwrite(&mut planes.w[cell], &outside, samples);
+            StoreMask::new(samples).store(&outside, &mut planes.w[cell]);
         }
     }
 
@@ -92,7 +92,7 @@ impl Shown {
         samples: &LaneMask,
     ) {
         if let Some(planes) = &mut self.0 {
-            overwrite(&mut planes.w[cell], &places.across(), samples);
+            StoreMask::new(samples).store(&places.across(), &mut planes.w[cell]);
         }
     }
 }

@@ -6,8 +6,8 @@ use super::set_up::SetUp;
 use super::square::{squares, steps};
 use super::texels::{Pictures, Texels};
 use super::tile::{
-    CELL_WIDTH, CELLS_ACROSS, LANES, LaneMask, OneByOne, Slope, Stack, Target, WIDTH, any, bits,
-    greater, least, lesser, overwrite, select,
+    CELL_WIDTH, CELLS_ACROSS, LANES, LaneMask, OneByOne, Slope, Stack, StoreMask, Target, WIDTH,
+    any, bits, greater, least, lesser, overwrite, select,
 };
 use crate::drawing::{Coverage, Drawing, Surface, SurfaceVertex};
 use glam::{DVec2, Vec2};
@@ -380,6 +380,7 @@ impl Triangle {
                         is_light[k] = select(tones.clamp(tone[k]) >= 0.0, u32::MAX, 0);
                     }
                 }
+                let wins = StoreMask::new(&wins);
                 for (channel, plane) in target.color.iter_mut().enumerate() {
                     let (light, shadow) = (light[channel], shadow[channel]);
                     let mut color = [one_color[channel]; LANES];
@@ -393,7 +394,7 @@ impl Triangle {
                             color[k] *= texel[channel][k];
                         }
                     }
-                    overwrite(&mut plane[cell.index], &color, &wins);
+                    wins.store(&color, &mut plane[cell.index]);
                 }
             }
         }

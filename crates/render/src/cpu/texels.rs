@@ -3,8 +3,8 @@
 
 use super::set_up::SetUp;
 use super::tile::{
-    Cell, IdPlane, LANES, LaneMask, NOTHING, Stack, Target, any, greater, lesser, number, put,
-    select,
+    Cell, IdPlane, LANES, LaneMask, NOTHING, Stack, StoreMask, Target, any, greater, lesser,
+    number, select,
 };
 use crate::drawing::{Coverage, SurfaceTexture, scatter};
 use effects::Blurred;
@@ -141,7 +141,7 @@ impl<'a, 'b> Pictures<'a, 'b> {
     /// Some samples of a cell show the picture of that number.
     #[inline(always)]
     pub(super) fn put(&mut self, cell: usize, number: u32, samples: &LaneMask) {
-        put(&mut self.numbers[cell], &[number; LANES], samples);
+        StoreMask::new(samples).store_ids(&[number; LANES], &mut self.numbers[cell]);
     }
 
     /// Looks up those that show, which till then have the colour that their triangles have.
