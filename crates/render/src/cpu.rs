@@ -72,7 +72,7 @@ use strand::StrandMasks;
 use surface::Triangle;
 use texels::Pictures;
 pub(crate) use tile::STACK;
-use tile::{LaneMask, Stack, Sums, Target};
+use tile::{Stack, StoreMask, Sums, Target};
 
 /// Most threads of a rasteriser.
 pub const MAX_THREADS: usize = 1024;
@@ -589,7 +589,7 @@ impl Worker {
             instructions.run(
                 #[inline(always)]
                 || {
-                    let shows = |cell, index, lanes: &LaneMask| {
+                    let shows = |cell, index, lanes: &StoreMask| {
                         if keeps_triangles {
                             shown.put_triangle(cell, index, lanes);
                         }

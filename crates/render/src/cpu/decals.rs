@@ -10,7 +10,7 @@ use super::stroke::{NEARER, Placed, across};
 use super::tile::{
     Aligned, CELLS, CELLS_ACROSS, Cell, IdPlane, LANES, LaneMask, Lanes, Mask, NO_SAMPLES, NOTHING,
     OneByOne, Plane, ROWS, Stack, StoreMask, Target, WIDTH, add, any, bits, both, cells, columns,
-    columns_of_cells, id_plane, is_empty, least, lesser, overwrite, plane, select, without,
+    columns_of_cells, id_plane, is_empty, least, lesser, plane, select, without,
 };
 use super::{Frame, Worker};
 use crate::drawing::{Decal, Drawing, LayerStrokes, Order, shown_reach};
@@ -295,8 +295,9 @@ fn shade(
             continue;
         };
         if surface.texture.is_none() {
+            let own = StoreMask::new(&own);
             for (plane, shadow) in target.color.iter_mut().zip(surface.shadow) {
-                overwrite(&mut plane[cell.index], &[shadow; LANES], &own);
+                own.store(&[shadow; LANES], &mut plane[cell.index]);
             }
             continue;
         }
@@ -310,6 +311,7 @@ fn shade(
         for k in 0..LANES {
             own[k] &= select(tones.clamp(tone[k]) >= 0.0, u32::MAX, 0);
         }
+        let own = StoreMask::new(&own);
         let both = surface.light.into_iter().zip(surface.shadow);
         for (plane, (light, shadow)) in target.color.iter_mut().zip(both) {
             let factor = if light > 0.0 { shadow / light } else { 1.0 };
@@ -317,7 +319,7 @@ fn shade(
             for k in 0..LANES {
                 color[k] *= factor;
             }
-            overwrite(&mut plane[cell.index], &color, &own);
+            own.store(&color, &mut plane[cell.index]);
         }
     }
 }

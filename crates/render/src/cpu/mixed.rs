@@ -150,21 +150,17 @@ impl Mixed {
         rows: &JointRows,
         [joint, next]: [usize; 2],
         way: &Lanes,
-        lanes: &LaneMask,
+        lanes: &StoreMask,
     ) {
         let mut rest = *way;
         for k in 0..LANES {
             rest[k] = 1.0 - way[k];
         }
-        let stored = StoreMask::new(lanes);
+        lanes.add_to(&mut self.set[slot]);
         if FIRST {
-            self.set[slot] = *lanes;
             self.joint[slot] = [joint as u32; LANES];
         } else {
-            for k in 0..LANES {
-                self.set[slot][k] |= lanes[k];
-            }
-            stored.store_ids(&[joint as u32; LANES], &mut self.joint[slot]);
+            lanes.store_ids(&[joint as u32; LANES], &mut self.joint[slot]);
         }
         if rows.rows.is_empty() {
             return; // nothing is read of joints that is linear between them
@@ -181,7 +177,7 @@ impl Mixed {
             if FIRST {
                 *plane = mixed;
             } else {
-                stored.store(&mixed, plane);
+                lanes.store(&mixed, plane);
             }
         }
         for i in OneByOne::of(&(numbers..width)) {
@@ -194,7 +190,7 @@ impl Mixed {
             if FIRST {
                 *plane = mixed;
             } else {
-                stored.store(&mixed, plane);
+                lanes.store(&mixed, plane);
             }
         }
     }

@@ -109,13 +109,12 @@ impl Block {
         let slot = self.cells.len() - 1;
         let (_, samples) = &mut self.cells[slot];
         let is_first = !any(samples);
-        for k in 0..LANES {
-            samples[k] |= lanes[k];
-        }
         let rows = &frame.parts.joint_rows;
+        let lanes = StoreMask::new(lanes);
+        lanes.add_to(samples);
         match is_first {
-            true => (self.mixed).mix::<true>(slot, rows, joints, way, lanes),
-            false => (self.mixed).mix::<false>(slot, rows, joints, way, lanes),
+            true => (self.mixed).mix::<true>(slot, rows, joints, way, &lanes),
+            false => (self.mixed).mix::<false>(slot, rows, joints, way, &lanes),
         }
     }
 

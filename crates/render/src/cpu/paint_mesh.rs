@@ -342,14 +342,12 @@ impl Block {
         lanes: &LaneMask,
     ) {
         let slot = self.cells.len() - 1;
+        let stored = StoreMask::new(lanes);
         if let Some((_, all)) = self.cells.last_mut() {
-            for k in 0..LANES {
-                all[k] |= lanes[k];
-            }
+            stored.add_to(all);
         }
         let cell = Cell::of_index(index);
         let inv_depth = self.inv_depth[slot];
-        let stored = StoreMask::new(lanes);
         for (axis, number) in corners.normal.iter().enumerate() {
             let mut numbers = number.slope.at_samples(stack).of(cell);
             for k in 0..LANES {

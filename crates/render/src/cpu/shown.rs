@@ -42,9 +42,8 @@ impl Shown {
 
     /// Some samples of a cell show a triangle.
     #[inline(always)]
-    pub(super) fn put_triangle(&mut self, cell: usize, index: u32, samples: &LaneMask) {
+    pub(super) fn put_triangle(&mut self, cell: usize, index: u32, samples: &StoreMask) {
         if let Some(planes) = &mut self.0 {
-            let samples = StoreMask::new(samples);
             samples.store_ids(&[index | TRIANGLE; LANES], &mut planes.what[cell]);
         }
     }

@@ -3,7 +3,7 @@
 
 use super::bin::{Bins, Bounds, cells};
 use super::instructions::Instructions;
-use super::tile::{self, Cell, LANES, NOTHING, Stack, Sums, Target, any, overwrite, select};
+use super::tile::{self, Cell, LANES, NOTHING, Stack, StoreMask, Sums, Target, any, select};
 use super::{DrawError, RasterizerError, empty_picture, segment};
 use crate::check;
 use crate::drawing::{Brush, Drawing, LayerStrokes};
@@ -270,7 +270,7 @@ impl Stamp {
     /// `corner` is the cell's, from the disc's centre.
     #[inline(always)]
     fn draw_cell(&self, corner: Vec2, stack: &Stack, cell: usize, target: &mut Target) {
-        let mut nearest = target.strand[cell];
+        let nearest = &mut target.strand[cell];
         let mut wins = [0; LANES];
         for k in 0..LANES {
             let (x, y) = (corner.x + stack.x[k], corner.y + stack.y[k]);
@@ -278,14 +278,14 @@ impl Stamp {
             let is_covered = (x * x + y * y <= self.radius_squared) & is_behind;
             let depth = select(is_covered, self.inv_depth, NOTHING);
             wins[k] = select(depth > nearest[k], u32::MAX, 0);
-            nearest[k] = select(depth > nearest[k], depth, nearest[k]);
         }
         if !any(&wins) {
             return;
         }
-        target.strand[cell] = nearest;
+        let wins = StoreMask::new(&wins);
+        wins.store(&[self.inv_depth; LANES], nearest);
         for (plane, color) in target.color.iter_mut().zip(self.color) {
-            overwrite(&mut plane[cell], &[color; LANES], &wins);
+            wins.store(&[color; LANES], &mut plane[cell]);
         }
     }
 }

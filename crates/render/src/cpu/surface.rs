@@ -6,8 +6,8 @@ use super::set_up::SetUp;
 use super::square::{squares, steps};
 use super::texels::{Pictures, Texels};
 use super::tile::{
-    CELL_WIDTH, CELLS_ACROSS, LANES, LaneMask, OneByOne, Slope, Stack, StoreMask, Target, WIDTH,
-    any, bits, greater, least, lesser, overwrite, select,
+    CELL_WIDTH, CELLS_ACROSS, LANES, OneByOne, Slope, Stack, StoreMask, Target, WIDTH, any, bits,
+    greater, least, lesser, select,
 };
 use crate::drawing::{Coverage, Drawing, Surface, SurfaceVertex};
 use glam::{DVec2, Vec2};
@@ -50,7 +50,7 @@ pub(super) fn draw_all<'a>(
     drawing: &'a Drawing,
     tile: &Tile,
     (target, pictures): (&mut Target, &mut Pictures<'a, '_>),
-    mut shows: impl FnMut(usize, u32, &LaneMask),
+    mut shows: impl FnMut(usize, u32, &StoreMask),
 ) {
     let mut set_up = SetUp::NOTHING;
     let mut left = of_tile;
@@ -78,7 +78,7 @@ fn draw_some<'a, const CUT: bool>(
     tile: &Tile,
     set_up: &mut SetUp,
     (target, pictures): (&mut Target, &mut Pictures<'a, '_>),
-    shows: &mut impl FnMut(usize, u32, &LaneMask),
+    shows: &mut impl FnMut(usize, u32, &StoreMask),
 ) {
     // What all of the tile shows is as near as this: most of a head's inside and outline is hidden at once.
     let farthest = target.farthest_surface();
@@ -110,7 +110,7 @@ fn draw_some<'a, const CUT: bool>(
         for k in 0..set_up.numbers().len() {
             let number = set_up.numbers()[k];
             let triangle = &all[number as usize];
-            let shows = |cell, lanes: &LaneMask| shows(cell, number, lanes);
+            let shows = |cell, lanes: &StoreMask| shows(cell, number, lanes);
             let to = (&mut *target, &mut *pictures);
             triangle.draw::<CUT>((surface, &colors), (set_up, k), tile, to, shows);
         }
@@ -271,7 +271,7 @@ impl Triangle {
         (set_up, own): (&SetUp, usize),
         tile: &Tile,
         (target, pictures): (&mut Target, &mut Pictures<'a, '_>),
-        mut shows: impl FnMut(usize, &LaneMask),
+        mut shows: impl FnMut(usize, &StoreMask),
     ) {
         let Colors {
             light,
@@ -341,7 +341,7 @@ impl Triangle {
                     continue;
                 }
                 let mut depth = depth_at.and(steps[3][number]);
-                let mut nearest = target.surface[cell.index];
+                let nearest = &target.surface[cell.index];
                 for k in 0..LANES {
                     depth[k] = depths.clamp(depth[k]);
                     wins[k] &= select(depth[k] > nearest[k], u32::MAX, 0);
@@ -356,6 +356,7 @@ impl Triangle {
                         continue;
                     }
                 }
+                let wins = StoreMask::new(&wins);
                 shows(cell.index, &wins);
                 if !CUT
                     && picture == 0
@@ -366,12 +367,12 @@ impl Triangle {
                 if !pictures.is_empty() {
                     pictures.put(cell.index, picture, &wins);
                 }
-                overwrite(&mut nearest, &depth, &wins);
-                target.surface[cell.index] = nearest;
-                target.farthest_surface[cell.index] = least(&nearest);
+                let nearest = &mut target.surface[cell.index];
+                wins.store(&depth, nearest);
+                target.farthest_surface[cell.index] = least(nearest);
                 if target.has_margins {
                     let margin = [surface.margin_m; LANES];
-                    overwrite(&mut target.margin[cell.index], &margin, &wins);
+                    wins.store(&margin, &mut target.margin[cell.index]);
                 }
                 let mut is_light = [u32::MAX; LANES];
                 if !is_one_color {
@@ -380,7 +381,6 @@ impl Triangle {
                         is_light[k] = select(tones.clamp(tone[k]) >= 0.0, u32::MAX, 0);
                     }
                 }
-                let wins = StoreMask::new(&wins);
                 for (channel, plane) in target.color.iter_mut().enumerate() {
                     let (light, shadow) = (light[channel], shadow[channel]);
                     let mut color = [one_color[channel]; LANES];

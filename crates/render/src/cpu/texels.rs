@@ -140,8 +140,8 @@ impl<'a, 'b> Pictures<'a, 'b> {
 
     /// Some samples of a cell show the picture of that number.
     #[inline(always)]
-    pub(super) fn put(&mut self, cell: usize, number: u32, samples: &LaneMask) {
-        StoreMask::new(samples).store_ids(&[number; LANES], &mut self.numbers[cell]);
+    pub(super) fn put(&mut self, cell: usize, number: u32, samples: &StoreMask) {
+        samples.store_ids(&[number; LANES], &mut self.numbers[cell]);
     }
 
     /// Looks up those that show, which till then have the colour that their triangles have.

@@ -98,6 +98,14 @@ impl StoreMask {
         *cell = lanes;
     }
 
+    /// Adds it to another.
+    #[inline(always)]
+    pub(in crate::cpu) fn add_to(&self, mask: &mut LaneMask) {
+        for k in 0..LANES {
+            mask[k] |= self.0[k];
+        }
+    }
+
     #[inline(always)]
     fn mixed(&self, lane: usize, new: u32, old: u32) -> u32 {
         new & self.0[lane] | old & !self.0[lane]

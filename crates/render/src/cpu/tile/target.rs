@@ -2,8 +2,8 @@
 
 use super::{
     Aligned, CELLS, CELLS_ACROSS, Cell, IdPlane, LANES, LaneMask, Lanes, Mask, NO_SAMPLES, NOTHING,
-    Plane, ROWS, Stack, add, columns_of_cells, greater, id_plane, least, lesser, plane, select,
-    without,
+    Plane, ROWS, Stack, StoreMask, add, columns_of_cells, greater, id_plane, least, lesser, plane,
+    select, without,
 };
 use crate::cpu::stroke::Depths;
 
@@ -251,8 +251,7 @@ impl Target {
             biased,
         } = depths;
         let (surface, margin) = (self.surface[cell.index], self.margin[cell.index]);
-        let mut nearest = self.strand[cell.index];
-        let mut top = self.priority[cell.index];
+        let (nearest, top) = (self.strand[cell.index], self.priority[cell.index]);
         let mut wins = *samples;
         for k in 0..LANES {
             let before_wall = depth[k] / (1.0 + margin[k] * depth[k]);
@@ -260,13 +259,12 @@ impl Target {
             let is_better =
                 (depth[k] > nearest[k]) | ((depth[k] == nearest[k]) & (priority > top[k]));
             let is_shown = (samples[k] != 0) & (surface[k] <= against) & is_better;
-            nearest[k] = select(is_shown, depth[k], nearest[k]);
-            top[k] = select(is_shown, priority, top[k]);
             wins[k] = select(is_shown, u32::MAX, 0);
         }
-        self.strand[cell.index] = nearest;
-        self.priority[cell.index] = top;
-        self.farthest_strand[cell.index] = least(&nearest);
+        let (strand, stored) = (&mut self.strand[cell.index], StoreMask::new(&wins));
+        stored.store(depth, strand);
+        stored.store_ids(&[priority; LANES], &mut self.priority[cell.index]);
+        self.farthest_strand[cell.index] = least(strand);
         wins
     }
 }
