@@ -56,6 +56,16 @@ fn random_signed(seed: u32, index: u32) -> f32 {
     return random(seed, index) * 2.0 - 1.0;
 }
 
+/// The 32 bits of a number.
+fn bits_of(x: f32) -> u32 {
+    return bitcast<u32>(x);
+}
+
+/// The number that has these bits. Not every 32 bits are a finite one.
+fn of_bits(bits: u32) -> f32 {
+    return bitcast<f32>(bits);
+}
+
 /// sin(pi x) within 2e-7, for |x| up to 1e6. Exactly 0 at whole numbers.
 fn sin_pi(x: f32) -> f32 {
     // Fold to r in [-1/2, 1/2], where a Taylor polynomial of degree 11 is enough.
@@ -76,41 +86,17 @@ fn power_of_two(x: f32) -> f32 {
     let f = (y - whole) * 0.6931472;
     let series = 1.0 + f * (1.0 + f * (0.5 + f * (0.16666667 + f * (0.041666668
         + f * (0.008333334 + f * 0.0013888889)))));
-    // 2^whole by the bits of its size.
-    let bits = u32(abs(whole));
-    var size = 1.0;
-    if ((bits & 1u) != 0u) { size = size * 2.0; }
-    if ((bits & 2u) != 0u) { size = size * 4.0; }
-    if ((bits & 4u) != 0u) { size = size * 16.0; }
-    if ((bits & 8u) != 0u) { size = size * 256.0; }
-    if ((bits & 16u) != 0u) { size = size * 65536.0; }
-    if ((bits & 32u) != 0u) { size = size * 4294967296.0; }
-    if ((bits & 64u) != 0u) { size = size * 18446744073709551616.0; }
-    return series * select(size, 1.0 / size, whole < 0.0);
+    return series * of_bits(u32(i32(whole) + 127) << 23u);
 }
 
 /// The logarithm of `x` to base 2, within 2e-6 or 3e-7 of its size, for x from 2^-126 on; below it
 /// counts as 2^-126.
 fn log_to_two(x: f32) -> f32 {
-    // x = m 2^e with m in [1/sqrt(2), sqrt(2)): halved or doubled by ever smaller powers.
-    var m = max(x, 1.1754944e-38);
-    var e = 0.0;
-    if (m < 5.4210109e-20) { m = m * 18446744073709551616.0; e = e - 64.0; }
-    if (m >= 18446744073709551616.0) { m = m * 5.4210109e-20; e = e + 64.0; }
-    if (m < 2.3283064e-10) { m = m * 4294967296.0; e = e - 32.0; }
-    if (m >= 4294967296.0) { m = m * 2.3283064e-10; e = e + 32.0; }
-    if (m < 1.5258789e-5) { m = m * 65536.0; e = e - 16.0; }
-    if (m >= 65536.0) { m = m * 1.5258789e-5; e = e + 16.0; }
-    if (m < 0.00390625) { m = m * 256.0; e = e - 8.0; }
-    if (m >= 256.0) { m = m * 0.00390625; e = e + 8.0; }
-    if (m < 0.0625) { m = m * 16.0; e = e - 4.0; }
-    if (m >= 16.0) { m = m * 0.0625; e = e + 4.0; }
-    if (m < 0.25) { m = m * 4.0; e = e - 2.0; }
-    if (m >= 4.0) { m = m * 0.25; e = e + 2.0; }
-    if (m < 0.70710677) { m = m * 2.0; e = e - 1.0; }
-    if (m >= 1.4142135) { m = m * 0.5; e = e + 1.0; }
-    if (m < 0.70710677) { m = m * 2.0; e = e - 1.0; }
-    if (m >= 1.4142135) { m = m * 0.5; e = e + 1.0; }
+    // x = m 2^e with m in [1/sqrt(2), sqrt(2)), by the bits that x has more than 1/sqrt(2).
+    let bits = bits_of(max(x, 1.1754944e-38));
+    let more = bits - 0x3f3504f3u;
+    let m = of_bits(bits - (more & 0xff800000u));
+    let e = f32(i32(more) >> 23u);
     // 2 / ln 2 (z + z^3 / 3 + ...) with z = (m - 1) / (m + 1), |z| < 0.172.
     let z = (m - 1.0) / (m + 1.0);
     let w = z * z;

@@ -4,6 +4,7 @@
 use crate::compose::{Entry, Source};
 use crate::error::BuildError;
 use crate::places;
+use crate::repair;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{
     BinaryOperator, Expression, Handle, MathFunction as Math, Module, Scalar, Span, TypeInner,
@@ -227,8 +228,11 @@ pub(crate) fn builtins(
                         ));
                     }
                 }
-                Expression::As { convert: None, .. } => {
-                    return refuse("`bitcast` is not available in effects".to_owned());
+                Expression::As { convert: None, .. } if !repair::is_of_bits(function) => {
+                    return refuse(
+                        "`bitcast` is not available in effects: use `bits_of(x)` and `of_bits(bits)`"
+                            .to_owned(),
+                    );
                 }
                 Expression::Binary {
                     op: BinaryOperator::ShiftLeft | BinaryOperator::ShiftRight,

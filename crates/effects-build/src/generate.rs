@@ -24,6 +24,7 @@ pub(crate) fn prelude() -> Result<String, BuildError> {
             Item::Fn(f) => {
                 // Into effects, which are crates of their own, and into loops that are compiled for other instructions.
                 f.attrs.push(syn::parse_quote!(#[inline(always)]));
+                repair::bits_in_rust(f);
                 (&mut f.vis, &mut f.attrs, f.sig.ident.to_string())
             }
             Item::Struct(s) => (&mut s.vis, &mut s.attrs, s.ident.to_string()),

@@ -8,7 +8,41 @@ pub(crate) fn for_translation(module: &mut Module) {
     for (_, function) in module.functions.iter_mut() {
         initialise_locals(function);
         reorder_smoothstep(function);
+        if is_of_bits(function) {
+            cast_in_place_of_bitcast(function);
+        }
     }
+}
+
+/// Whether it is one of the prelude's functions that give a number's bits, and the other way round: what the translation makes of
+/// these is replaced by [`bits_in_rust`].
+pub(crate) fn is_of_bits(function: &naga::Function) -> bool {
+    let name = function.name.as_deref();
+    name == Some("bits_of") || name == Some("of_bits")
+}
+
+/// The translation has no `bitcast`.
+fn cast_in_place_of_bitcast(function: &mut naga::Function) {
+    for (_, expression) in function.expressions.iter_mut() {
+        if let Expression::As { convert, .. } = expression {
+            *convert = Some(size_of::<f32>() as u8);
+        }
+    }
+}
+
+/// The translation of `bits_of` or `of_bits`, which does what its name says.
+pub(crate) fn bits_in_rust(function: &mut syn::ItemFn) {
+    let bits: syn::Expr = match function.sig.ident.to_string().as_str() {
+        "v_bits_of" => syn::parse_quote!(number.0.to_bits()),
+        "v_of_bits" => syn::parse_quote!(f32::from_bits(number.0)),
+        _ => return,
+    };
+    for input in &mut function.sig.inputs {
+        if let syn::FnArg::Typed(argument) = input {
+            argument.pat = syn::parse_quote!(number);
+        }
+    }
+    function.block = syn::parse_quote!({ ::effects::rt::Scalar(#bits) });
 }
 
 /// WGSL zeroes `var x: T;`, the translation leaves it unassigned.

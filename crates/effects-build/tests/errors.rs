@@ -145,7 +145,7 @@ fn builtins_that_differ_between_processors_are_refused_with_what_to_use() {
     );
     assert_error(
         &with_radius("bitcast<f32>(instance)"),
-        &["src/mine.wgsl:3:", "bitcast"],
+        &["src/mine.wgsl:3:", "bitcast", "bits_of(x)"],
     );
     assert_error(
         &with_radius("f32(1u << instance)"),

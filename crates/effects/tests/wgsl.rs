@@ -187,6 +187,17 @@ fn random_numbers_are_even_and_apart() {
 }
 
 #[test]
+fn numbers_and_their_bits() {
+    assert_eq!(wgsl::bits_of(1.0), 0x3f80_0000);
+    assert_eq!(wgsl::of_bits(0xbf80_0000_u32), -1.0);
+    for number in [0.0, -0.0, 1e-40, 0.1, f32::MAX, f32::INFINITY] {
+        let bits: u32 = wgsl::bits_of(number);
+        assert_eq!(bits, number.to_bits(), "{number}");
+        assert_eq!(wgsl::of_bits(bits), number);
+    }
+}
+
+#[test]
 fn powers_at_their_ends() {
     let ends = [-1e9, -126.0, 0.0, 1.0, 127.0, 1e9].map(|x: f32| wgsl::power_of_two(x));
     let (least, most) = (2f32.powi(-126), 2f32.powi(127));

@@ -317,6 +317,11 @@ impl Call<'_> {
                 kind,
                 convert: Some(_),
             } => math::convert(&self.value(*expr)?, *kind),
+            Expression::As {
+                expr,
+                kind,
+                convert: None,
+            } => math::bits(&self.value(*expr)?, *kind),
             other => Err(format!("{other:?} is not known here")),
         }
     }

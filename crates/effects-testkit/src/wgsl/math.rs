@@ -135,6 +135,15 @@ pub(crate) fn convert(value: &Value, kind: ScalarKind) -> Result<Value, String> 
     })
 }
 
+/// A `bitcast` between numbers and their bits.
+pub(crate) fn bits(value: &Value, kind: ScalarKind) -> Result<Value, String> {
+    match (kind, value) {
+        (ScalarKind::Uint, F32(a)) => Ok(U32(a.to_bits())),
+        (ScalarKind::Float, U32(a)) => Ok(F32(f32::from_bits(*a))),
+        _ => Err(format!("{value:?} as the bits of {kind:?}")),
+    }
+}
+
 /// A builtin function.
 pub(crate) fn call(fun: Fun, arguments: &[Value]) -> Result<Value, String> {
     let wrong = || format!("{fun:?} of {arguments:?} is not known here");
