@@ -2,7 +2,7 @@
 
 use super::DrawError;
 use super::tile::{
-    self, CELL_WIDTH, CELLS_ACROSS, Colors, LANES, STACK, Shows, Stack, Target, WIDTH,
+    self, CELL_WIDTH, CELLS_ACROSS, LANES, Plane, STACK, Shows, Stack, Target, WIDTH,
 };
 use crate::drawing::Drawing;
 use crate::edges::Covered;
@@ -20,9 +20,10 @@ pub(super) struct Light {
 }
 
 /// That of a tile's samples.
-#[derive(Clone)]
+#[derive(Default)]
 pub(super) struct TileLight {
-    color: Colors,
+    /// None where nothing has been drawn yet.
+    color: Option<[Plane; 3]>,
     /// The samples of each cell that show something, where a picture has no background.
     shows: Shows,
     /// Whether there is anything in the tile; else `color` is anything.
@@ -36,9 +37,11 @@ pub(super) struct Lines {
 }
 
 impl TileLight {
-    /// Keeps the light of a tile whose samples are summed up.
-    pub(super) fn keep(&mut self, target: &Target, is_opaque: bool) {
-        target.copy_colors(&mut self.color);
+    /// Keeps the light of a tile whose samples are summed up; the target goes on with planes that were kept before, whatever they have.
+    pub(super) fn keep(&mut self, target: &mut Target, is_opaque: bool) {
+        let spare = self.color.take();
+        let spare = spare.unwrap_or_else(|| [tile::plane(), tile::plane(), tile::plane()]);
+        self.color = Some(std::mem::replace(&mut target.color, spare));
         if !is_opaque {
             target.copy_shows(&mut self.shows);
         }
@@ -59,12 +62,7 @@ impl Light {
         let more = tiles - self.tiles.len();
         let room = self.tiles.try_reserve_exact(more);
         room.map_err(|_| DrawError::Memory(width, height))?;
-        let nothing = TileLight {
-            color: tile::no_colors(),
-            shows: Shows::default(),
-            is_drawn: false,
-        };
-        self.tiles.resize(tiles, nothing);
+        self.tiles.resize_with(tiles, TileLight::default);
         Ok(())
     }
 
@@ -120,7 +118,8 @@ impl Light {
         let tile = &self.tiles[row / tile::ROWS * self.across + x / WIDTH];
         let (row, column) = (row % tile::ROWS, x % WIDTH);
         DrawnPixel {
-            tile: tile.is_drawn.then_some(tile),
+            color: tile.color.as_ref().filter(|_| tile.is_drawn),
+            shows: &tile.shows,
             cell: row * CELLS_ACROSS + column / CELL_WIDTH,
             first_lane: column % CELL_WIDTH * STACK + below * (STACK / self.height),
             background,
@@ -130,8 +129,9 @@ impl Light {
 
 /// The samples of a pixel as they were drawn.
 struct DrawnPixel<'a> {
-    /// None where there is nothing.
-    tile: Option<&'a TileLight>,
+    /// Those of its tile; none where there is nothing.
+    color: Option<&'a [Plane; 3]>,
+    shows: &'a Shows,
     cell: usize,
     first_lane: usize,
     background: Option<[f32; 3]>,
@@ -140,11 +140,11 @@ struct DrawnPixel<'a> {
 impl DrawnPixel<'_> {
     /// The light of a sample, and its alpha.
     fn sample(&self, sample: usize) -> [f32; 4] {
-        match self.tile {
-            Some(tile) => {
+        match self.color {
+            Some(planes) => {
                 let lane = (self.first_lane + sample) % LANES;
-                let [red, green, blue] = tile.color.each_ref().map(|plane| plane[self.cell][lane]);
-                let is_there = self.background.is_some() || tile.shows.has(self.cell, lane);
+                let [red, green, blue] = planes.each_ref().map(|plane| plane[self.cell][lane]);
+                let is_there = self.background.is_some() || self.shows.has(self.cell, lane);
                 [red, green, blue, f32::from(u8::from(is_there))]
             }
             None => match self.background {

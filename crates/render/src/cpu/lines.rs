@@ -160,7 +160,7 @@ impl Worker {
             self.add_up(frame, stack);
             self.write_means(frame, output.pixels, columns);
             let is_opaque = frame.drawing.background.is_some();
-            output.tiles[tile].keep(&self.target, is_opaque);
+            output.tiles[tile].keep(&mut self.target, is_opaque);
         }
         ribbon.finish();
         frame.instructions.run(

@@ -1,20 +1,11 @@
 //! What the samples of a tile show while it is drawn.
 
 use super::{
-    Aligned, CELLS, CELLS_ACROSS, Cell, IdPlane, LANES, LaneMask, Lanes, Mask, NO_SAMPLES, NOTHING,
-    Plane, ROWS, Stack, StoreMask, add, columns_of_cells, greater, id_plane, least, lesser, plane,
-    select, without,
+    Aligned, CELLS, CELLS_ACROSS, Cell, IdPlane, LANES, LaneMask, Mask, NO_SAMPLES, NOTHING, Plane,
+    ROWS, Stack, StoreMask, add, columns_of_cells, greater, id_plane, least, lesser, plane, select,
+    without,
 };
 use crate::cpu::stroke::Depths;
-
-/// Colours of all samples of a tile, channel by channel.
-pub(in crate::cpu) type Colors = [[Lanes; CELLS]; 3];
-
-/// Black ones.
-#[inline]
-pub(in crate::cpu) fn no_colors() -> Colors {
-    [[[0.0; LANES]; CELLS]; 3]
-}
 
 /// Which samples of a tile show anything: a bit for each lane of each cell.
 #[derive(Clone)]
@@ -170,13 +161,6 @@ impl Target {
                     }
                 }
             }
-        }
-    }
-
-    /// Copies what its samples add to light, once they are [summed up](Sums::add).
-    pub(in crate::cpu) fn copy_colors(&self, colors: &mut Colors) {
-        for (copy, plane) in colors.iter_mut().zip(&self.color) {
-            copy.copy_from_slice(&plane[..]);
         }
     }
 
