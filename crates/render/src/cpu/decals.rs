@@ -59,8 +59,8 @@ impl DecalParts {
 #[derive(Default)]
 pub(super) struct Decals {
     of_tiles: Lists,
-    /// A tile's segments, those of the highest stroke first, then of the lowest strand.
-    order: Vec<u32>,
+    /// A tile's segments after their strokes, the highest first, and strands.
+    order: Vec<(Reverse<u32>, u32, u32)>,
     planes: Option<Planes>,
     /// Samples that have a decal's colour, and surfaces' samples that lie in a shadow.
     replaced: Option<Box<Mask>>,
@@ -146,9 +146,9 @@ impl Worker {
         let list = parts.segments.list();
         let segment = |i: u32| &list[i as usize];
         decals.order.clear();
-        decals.order.extend_from_slice(of_tile);
-        let key = |i: &u32| (Reverse(segment(*i).stroke), segment(*i).strand, *i);
-        decals.order.sort_unstable_by_key(key);
+        let in_order = |&i: &u32| (Reverse(segment(i).stroke), segment(i).strand, i);
+        decals.order.extend(of_tile.iter().map(in_order));
+        decals.order.sort_unstable();
         let planes = decals.planes.get_or_insert_with(|| Planes {
             marks: id_plane(),
             farthest: [const { [f32::INFINITY; CELLS] }; 2].map(|cells| Box::new(Aligned(cells))),
@@ -173,10 +173,9 @@ impl Worker {
         let (mut replaced, mut shaded) = (NO_SAMPLES, NO_SAMPLES);
         let mut closed = NO_SAMPLES;
         let (mut of_layer, mut open) = (usize::MAX, NO_SAMPLES);
-        for stroke in decals.order.chunk_by(|&a, &b| {
-            (segment(a).stroke, segment(a).strand) == (segment(b).stroke, segment(b).strand)
-        }) {
-            let first = segment(stroke[0]);
+        for stroke in (decals.order).chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+            let (_, _, first_of_stroke) = stroke[0];
+            let first = segment(first_of_stroke);
             let layer = parts.strokes[first.stroke as usize - 1].layer;
             let Some(decal) = frame.drawing.decal(layer) else {
                 continue;
@@ -201,11 +200,11 @@ impl Worker {
                 shown,
                 brush: frame.drawing.brushwork.of_layer(layer).map(|brushed| {
                     let of_stroke = &parts.strokes[first.stroke as usize - 1];
-                    StrokeBrush::new(&scene, brushed, of_stroke, stroke[0])
+                    StrokeBrush::new(&scene, brushed, of_stroke, first_of_stroke)
                 }),
             };
             let mut taken = NO_SAMPLES;
-            for &index in stroke {
+            for &(_, _, index) in stroke {
                 let nearest = segment(index).inv_depth;
                 if !decal.may_fit_any(&seen, nearest) {
                     continue;
