@@ -526,10 +526,12 @@ mod tests {
             }
         }
 
-        /// The same of samples alone, and with triangles that hide what is behind the nearest of them.
+        /// The same of samples alone, and with triangles that hide what is behind the nearest of them. Clumps of many links are looked at some
+        /// links at a time.
         #[test]
         fn samples_that_are_hidden_are_covered(
-            links in prop::collection::vec(link(), 1..60),
+            ends in prop::collection::vec(link(), 1..30),
+            ends_of_clump in prop::sample::select(vec![2_usize, 12, 40]),
             triangles in prop::collection::vec((prop::array::uniform6(0.0..1.0_f32), 0.5..2.0_f32, -0.2..0.2_f32), 0..6),
             edge_depth_m in prop_oneof![Just(0.0_f32), 0.0..0.3_f32],
             count in prop::sample::select(vec![1_u32, 2, 4, 8, 16]),
@@ -549,19 +551,25 @@ mod tests {
                     ..Surface::default()
                 }
             }).collect();
-            let clumps = links.iter().enumerate().map(|(i, link)| Clump {
-                first: 2 * i,
-                discs: &link[..],
-                covering: 1,
+            let discs = ends.as_flattened();
+            let clumps = discs.chunks(ends_of_clump).enumerate().map(|(i, discs)| Clump {
+                first: i * ends_of_clump,
+                discs,
+                covering: discs.len() - 1,
             });
             let clumps: Vec<Clump> = clumps.collect();
+            let links = clumps.iter().flat_map(|clump| {
+                let links = clump.discs.array_windows::<2>();
+                (clump.first..).zip(links)
+            });
+            let links: Vec<(usize, &[Disc; 2])> = links.collect();
             // Their own strokes are no wider than they are.
             let swath = |joint: usize| {
-                let [a, b] = &links[joint / 2];
+                let [a, b] = [&discs[joint], &discs[joint + 1]];
                 let nearness = [a, b].map(|disc| disc.inv_depth_biased);
                 Swath::new([a.center, b.center], a.radius.max(b.radius), nearness)
             };
-            let mut hidden = vec![false; 2 * links.len()];
+            let mut hidden = vec![false; discs.len()];
             let mut cover = Cover::default();
             let scene = Scene {
                 size: SIZE,
@@ -586,13 +594,13 @@ mod tests {
                 nearest.map_or(0.0, |surface| 1.0 / (1.0 / inv_depth(surface) - surface.margin_m.min(0.0)))
             };
             let hair = |place: Vec2, without: Option<usize>| {
-                let others = links.iter().enumerate().filter(|(i, _)| Some(*i) != without);
+                let others = links.iter().filter(|(joint, _)| Some(*joint) != without);
                 others.filter_map(|(_, link)| nearness_at(place, link, edge_depth_m)).fold(0.0, f32::max)
             };
-            for (i, link) in links.iter().enumerate().filter(|(i, _)| hidden[2 * i]) {
+            for (joint, link) in links.iter().filter(|(joint, _)| hidden[*joint]) {
                 for place in &places {
                     if let Some(own) = nearness_at(*place, link, 0.0) {
-                        let (hair, skin) = (hair(*place, Some(i)), skin(*place));
+                        let (hair, skin) = (hair(*place, Some(*joint)), skin(*place));
                         prop_assert!(hair.max(skin) > own, "{place}: {hair} and {skin}, and {own} is hidden");
                     }
                 }

@@ -145,3 +145,33 @@ pub(in crate::cpu) fn least(lanes: &Lanes) -> f32 {
     }
     least[0]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{LANES, StoreMask, select};
+    use proptest::prelude::{any, prop, proptest};
+    use proptest::prop_assert_eq;
+
+    proptest! {
+        #[test]
+        fn cells_take_on_what_masks_say(
+            old in prop::array::uniform16(any::<u32>()),
+            new in prop::array::uniform16(any::<u32>()),
+            set in prop::array::uniform16(any::<bool>()),
+            more in prop::array::uniform16(any::<bool>()),
+        ) {
+            let all_or_none = |set: [bool; LANES]| set.map(|set| select(set, u32::MAX, 0));
+            let mask = StoreMask::new(&all_or_none(set));
+            let expected: [u32; LANES] = std::array::from_fn(|k| if set[k] { new[k] } else { old[k] });
+            let mut ids = old;
+            mask.store_ids(&new, &mut ids);
+            prop_assert_eq!(ids, expected);
+            let mut numbers = old.map(f32::from_bits);
+            mask.store(&new.map(f32::from_bits), &mut numbers);
+            prop_assert_eq!(numbers.map(f32::to_bits), expected);
+            let mut both = all_or_none(more);
+            mask.add_to(&mut both);
+            prop_assert_eq!(both, std::array::from_fn(|k| select(set[k] | more[k], u32::MAX, 0)));
+        }
+    }
+}
