@@ -2,7 +2,7 @@
 
 use super::DrawError;
 use super::tile::{
-    self, CELL_WIDTH, CELLS_ACROSS, LANES, Plane, STACK, Shows, Stack, Target, WIDTH,
+    self, CELL_WIDTH, CELLS, CELLS_ACROSS, LANES, Lanes, Plane, STACK, Shows, Stack, Target, WIDTH,
 };
 use crate::drawing::Drawing;
 use crate::edges::Covered;
@@ -60,7 +60,10 @@ impl Light {
         self.tiles.truncate(tiles);
         self.tiles.iter_mut().for_each(|tile| tile.is_drawn = false);
         let more = tiles - self.tiles.len();
-        let room = self.tiles.try_reserve_exact(more);
+        let room = self.tiles.try_reserve_exact(more).and_then(|()| {
+            // Planes are made as tiles are drawn; but nobody is to draw half of a picture that has no room.
+            Vec::<[Lanes; CELLS]>::new().try_reserve_exact(3 * more)
+        });
         room.map_err(|_| DrawError::Memory(width, height))?;
         self.tiles.resize_with(tiles, TileLight::default);
         Ok(())

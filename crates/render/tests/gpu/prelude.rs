@@ -54,6 +54,21 @@ const CASES: &[Case] = &[
         tolerance: 1e-6,
     },
     Case {
+        name: "bits_of",
+        wgsl: "vec4<f32>(f32(bits_of(v.x) >> 16u), f32(bits_of(v.x) & 0xffffu), 0.0, 0.0)",
+        rust: |v| {
+            let bits: u32 = wgsl::bits_of(v[0]);
+            [(bits >> 16) as f32, (bits & 0xffff) as f32, 0.0, 0.0]
+        },
+        tolerance: 0.0,
+    },
+    Case {
+        name: "of_bits",
+        wgsl: "vec4<f32>(of_bits(0x3f000000u + u32(abs(v.x) * 65536.0) * 256u), 0.0, 0.0, 0.0)",
+        rust: |v| one(wgsl::of_bits(0x3f00_0000 + whole(v[0]) * 256)),
+        tolerance: 0.0,
+    },
+    Case {
         name: "sin_pi",
         wgsl: "vec4<f32>(sin_pi(8.0 * v.x), 0.0, 0.0, 0.0)",
         rust: |v| one(wgsl::sin_pi(8.0 * v[0])),
