@@ -4,7 +4,7 @@ mod image;
 mod ramp;
 
 pub use image::{Blurred, Image, ImageError};
-pub(crate) use image::{choose, index, least, log_to_two_from_one, most, of_half};
+pub(crate) use image::{choose, index, least, most, of_half};
 pub use ramp::{Ramp, Row};
 
 use crate::lanes::widest;

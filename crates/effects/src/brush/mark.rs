@@ -1,6 +1,7 @@
 //! A picture whose coverage alone counts, as numbers that are quick to look up at several places at once.
 
-use crate::texture::{Image, choose, index, least, log_to_two_from_one, most, of_half};
+use crate::texture::{Image, choose, index, least, most, of_half};
+use crate::wgsl;
 use std::sync::Arc;
 
 /// What a tool leaves.
@@ -93,7 +94,7 @@ impl Mark {
         let (mut finer, mut coarser, mut share) = ([0; N], [0; N], [0.0; N]);
         let mut is_mixed = false;
         for k in 0..N {
-            let level = least(log_to_two_from_one(texels[k]), last);
+            let level = least(wgsl::log_to_two(texels[k]), last);
             let whole = level.floor();
             finer[k] = index(whole);
             coarser[k] = index(least(whole + 1.0, last));

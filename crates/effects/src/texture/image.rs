@@ -1,6 +1,7 @@
 //! Pictures as textures: linear light in half precision, with ever smaller copies for what is small on the screen.
 
 use crate::color::linear_from_srgb;
+use crate::wgsl;
 use half::f16;
 use std::hint::black_box;
 use std::sync::LazyLock;
@@ -140,7 +141,7 @@ impl Image {
         let mut is_mixed = false;
         for k in 0..N {
             let texels = most(size[k], 0.0) * whole_width;
-            let level = least(log_to_two_from_one(most(texels, 1.0)), last);
+            let level = least(wgsl::log_to_two(most(texels, 1.0)), last);
             let whole = level.floor();
             finer[k] = index(whole);
             share[k] = level - whole;
@@ -211,7 +212,7 @@ impl Image {
         let texels = size.max(0.0) * self.size()[0] as f32;
         // No size, or one that is no number, is the whole's.
         let level = if texels > 1.0 {
-            log_to_two_from_one(texels).min(last)
+            wgsl::log_to_two(texels).min(last)
         } else {
             0.0
         };
@@ -228,24 +229,6 @@ impl Image {
             strides: [1, 1, width as u32, half_width as u32],
         }
     }
-}
-
-/// WGSL's `log_to_two` of 1 or more, which triangle by triangle would take longer than all else that is worked out for a picture: the same bits, as the
-/// exponent is taken off exactly.
-#[inline(always)]
-pub(crate) fn log_to_two_from_one(x: f32) -> f32 {
-    const FRACTION: u32 = (1 << 23) - 1;
-    let bits = x.to_bits();
-    let one_to_two = f32::from_bits(bits & FRACTION | 1.0_f32.to_bits());
-    let is_above = one_to_two >= std::f32::consts::SQRT_2;
-    let m = choose(is_above, 0.5 * one_to_two, one_to_two);
-    // By way of a signed number, which is one instruction.
-    let e = (bits >> 23) as i32 as f32 - 127.0 + choose(is_above, 1.0, 0.0);
-    let z = (m - 1.0) / (m + 1.0);
-    let w = z * z;
-    e + z
-        * (2.885_390_1
-            + w * (0.961_796_7 + w * (0.577_078_0 + w * (0.412_198_6 + w * 0.320_598_9))))
 }
 
 /// That a picture has texels, not too many, and so many numbers of each.
@@ -457,9 +440,7 @@ fn mean(shares: &[(usize, f32)], texel: impl Fn(usize) -> [f32; 4]) -> [f32; 4] 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::wgsl::log_to_two;
     use proptest::prelude::*;
-    use std::f32::consts::SQRT_2;
 
     #[test]
     fn halves_are_the_numbers_that_they_are() {
@@ -554,13 +535,6 @@ mod tests {
     }
 
     proptest! {
-        #[test]
-        fn logarithms_are_those_of_effects(
-            x in prop_oneof![1.0..4.0_f32, 1.0..1e6_f32, 1.0..f32::MAX, prop::sample::select(vec![1.0, 2.0, SQRT_2, 4096.0, SQRT_2.next_down()])],
-        ) {
-            prop_assert_eq!(log_to_two_from_one(x).to_bits(), log_to_two(x).to_bits());
-        }
-
         #[test]
         fn copies_keep_the_mean(width in 1_usize..12, height in 1_usize..12, seed: u64) {
             let count = width * height;

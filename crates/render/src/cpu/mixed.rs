@@ -165,6 +165,10 @@ impl Mixed {
         if rows.rows.is_empty() {
             return; // nothing is read of joints that is linear between them
         }
+        let put = |mixed: &Lanes, plane: &mut Lanes| match FIRST {
+            true => *plane = *mixed,
+            false => lanes.store(mixed, plane),
+        };
         let (from, to) = (rows.of(joint), rows.of(next));
         let (numbers, width) = (rows.numbers.len(), rows.width());
         for i in OneByOne::of(&(0..numbers)) {
@@ -173,12 +177,7 @@ impl Mixed {
             for k in 0..LANES {
                 mixed[k] = from[i] + way[k] * (to[i] - from[i]);
             }
-            let plane = &mut self.planes[i][slot];
-            if FIRST {
-                *plane = mixed;
-            } else {
-                lanes.store(&mixed, plane);
-            }
+            put(&mixed, &mut self.planes[i][slot]);
         }
         for i in OneByOne::of(&(numbers..width)) {
             let i = i % WIDTH;
@@ -186,12 +185,7 @@ impl Mixed {
             for k in 0..LANES {
                 mixed[k] = from[i] * rest[k] + to[i] * way[k];
             }
-            let plane = &mut self.planes[i][slot];
-            if FIRST {
-                *plane = mixed;
-            } else {
-                lanes.store(&mixed, plane);
-            }
+            put(&mixed, &mut self.planes[i][slot]);
         }
     }
 

@@ -76,14 +76,29 @@ const CASES: &[Case] = &[
     },
     Case {
         name: "power_of_two",
-        wgsl: "vec4<f32>(power_of_two(20.0 * v.x), 0.0, 0.0, 0.0)",
-        rust: |v| one(wgsl::power_of_two(20.0 * v[0])),
+        wgsl: "vec4<f32>(power_of_two(20.0 * v.x), power_of_two(126.0 * abs(v.y)), power_of_two(-1e9), 0.0)",
+        rust: |v| {
+            let large = wgsl::power_of_two(126.0 * v[1].abs());
+            [
+                wgsl::power_of_two(20.0 * v[0]),
+                large,
+                wgsl::power_of_two(-1e9),
+                0.0,
+            ]
+        },
         tolerance: 1e-6,
     },
     Case {
         name: "log_to_two",
-        wgsl: "vec4<f32>(log_to_two(abs(v.x) * 1000.0), 0.0, 0.0, 0.0)",
-        rust: |v| one(wgsl::log_to_two(v[0].abs() * 1000.0)),
+        wgsl: "vec4<f32>(log_to_two(abs(v.x) * 1000.0), log_to_two(power_of_two(126.0 * v.y)), 0.0, 0.0)",
+        rust: |v| {
+            [
+                wgsl::log_to_two(v[0].abs() * 1000.0),
+                wgsl::log_to_two(wgsl::power_of_two(126.0 * v[1])),
+                0.0,
+                0.0,
+            ]
+        },
         tolerance: 3e-6,
     },
     Case {

@@ -54,7 +54,7 @@ impl Iterator for OneByOne {
     }
 }
 
-/// Takes on the new values where `mask` is set.
+/// Takes on the new values where `mask` is set: of numbers that are in no plane, for which there is [`StoreMask`].
 #[inline(always)]
 pub(in crate::cpu) fn overwrite(old: &mut Lanes, new: &Lanes, mask: &LaneMask) {
     let mut lanes = *old; // a store for each lane might become a branch
@@ -66,8 +66,8 @@ pub(in crate::cpu) fn overwrite(old: &mut Lanes, new: &Lanes, mask: &LaneMask) {
 
 /// A mask by which cells of planes, which are in memory, take on new values.
 ///
-/// Of lanes that a compiler knows to be set or not it makes a masked store, which takes AMD's processors without AVX-512 a dozen cycles: so it knows nothing of
-/// these, and loads the old values, mixes bits and stores all of them.
+/// Where a compiler knows that all bits of a lane are alike it makes masked stores, which take far longer on some machines (`docs/performance.md`): so it is kept
+/// from knowing, and loads the old values, mixes bits and stores all of them.
 #[derive(Clone, Copy)]
 pub(in crate::cpu) struct StoreMask(LaneMask);
 
