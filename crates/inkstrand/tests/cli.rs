@@ -293,15 +293,22 @@ fn sequences_have_numbers_and_move() {
     let frames = names.map(|name| fs::read(folder.path().join(name)).unwrap());
     assert!(frames[0] != frames[1] && frames[1] != frames[2]);
 
-    // A frame of a sequence is the picture at its time.
+    // A frame of a sequence is the picture at its time, and the picture at a time has its number.
     inkstrand(
         folder.path(),
-        &["render", "small.ron", "--time", "0.375", "-o", "one.png"],
+        &[
+            "render",
+            "small.ron",
+            "--time",
+            "0.375",
+            "-o",
+            "one_###.png",
+        ],
     )
     .assert()
     .success();
     assert!(
-        fs::read(folder.path().join("one.png")).unwrap() == frames[0],
+        fs::read(folder.path().join("one_009.png")).unwrap() == frames[0],
         "9 / 24 s"
     );
 

@@ -15,6 +15,7 @@ use hair_io::try_to_write;
 use render::Picture;
 use stage::{Files, Preset, SceneSection, Sections, Stage};
 use std::io;
+use std::ops::RangeInclusive;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -77,10 +78,10 @@ fn draw(
             "--pass: numbers in 16 bits are no frames of an .apng: -o must be a name in .png";
         return Err(Failure::Usage(message.to_owned()));
     }
-    check_outputs(options, &output, &preset, &files)?;
+    let (first, last) = frames(options, fps);
+    check_outputs(&output, &(first..=last), options, &preset, &files)?;
 
     let mut stage = source.open(&preset, &files, options.quiet)?;
-    let (first, last) = options.frames.unwrap_or((0, 0));
     let time_of = |frame: u32| options.time.unwrap_or(frame as f32 / fps);
     for time in [first, last].map(time_of) {
         stage.scene.check_time(time)?;
@@ -158,21 +159,27 @@ fn say_returns(stage: &Stage) {
     }
 }
 
+/// The first frame to draw and the last; of one moment the frame that is nearest to it.
+fn frames(options: &RenderOptions, fps: f32) -> (u32, u32) {
+    let at = (options.time.unwrap_or(0.0) * fps).round() as u32;
+    options.frames.unwrap_or((at, at))
+}
+
 /// Refuses what cannot be written, and what would be written over by another file or over one that is read.
 fn check_outputs(
-    options: &RenderOptions,
     output: &Output,
+    frames: &RangeInclusive<u32>,
+    options: &RenderOptions,
     preset: &Preset,
     files: &Files,
 ) -> Result<(), Failure> {
-    let (first, last) = options.frames.unwrap_or((0, 0));
     let stats = options
         .stats
         .as_deref()
         .filter(|path| *path != Path::new("-"));
     let mut read = preset.files(files);
     read.push(options.preset.clone());
-    if let Some(path) = output.writes_over(&read, first..=last) {
+    if let Some(path) = output.writes_over(&read, frames.clone()) {
         let message = format!(
             "-o: a picture would be written over {}, which is read",
             path.display()
@@ -186,13 +193,13 @@ fn check_outputs(
         return Err(Failure::Usage(message));
     }
     if let Some(stats) = stats {
-        if (output.writes_over(&[stats.to_owned()], first..=last)).is_some() {
+        if (output.writes_over(&[stats.to_owned()], frames.clone())).is_some() {
             let message = format!("--stats: {} is a picture of -o", stats.display());
             return Err(Failure::Usage(message));
         }
         Lines::try_path(stats)?;
     }
-    Ok(try_to_write(&output.path(first))?)
+    Ok(try_to_write(&output.path(*frames.start()))?)
 }
 
 /// Puts the command line's options in place of the preset's.
