@@ -134,7 +134,7 @@ pub(crate) struct RenderOptions {
     /// The preset, a .ron file
     pub preset: PathBuf,
 
-    /// Picture to write, .png; `#` marks become the frame's number; .apng is one file of all frames, which moves [default: the preset's name, in the current folder]
+    /// Picture to write, .png; `#` marks become the frame's number, of --time that of the nearest frame; .apng is one file of all frames, which moves [default: the preset's name, in the current folder]
     #[arg(short, long, value_name = "PATH")]
     pub output: Option<PathBuf>,
 
