@@ -13,8 +13,8 @@ const CYCLES: f64 = 2.0;
 /// The part of a cycle that it may lag by then: large swings lag twice as far, and lose a tenth.
 const LAG: f64 = 0.045;
 
-/// Steps beyond the longest throw hair about, in s; what needs steps below the shortest is hardly seen to swing.
-const LONGEST_STEP: f64 = 1.0 / 24.0;
+/// In steps beyond the longest, in s, hair that touches hair and bodies at once may tremble for ever; what needs steps below the shortest is hardly seen to swing.
+const LONGEST_STEP: f64 = 1.0 / 48.0;
 const SHORTEST_STEP: f64 = 1.0 / 144.0;
 
 /// The section and substance of a strand.
@@ -145,7 +145,8 @@ pub struct Params {
     pub goal: Profile,
     /// Pull of every particle that has come to lie far from its place in the goal shape, such as on the other side of a shoulder, in m/s^2, 0 to 1e4, whatever
     /// the distance. It goes up and over what lies between, is damped, critically where it pulls in full, and fades where hair moves against the shape, and where air
-    /// blows: what swings or streams is hardly pulled.
+    /// blows: what swings or streams is hardly pulled. What it pulls slides: friction counts for
+    /// less, and for nothing where the pull is 30 m/s^2.
     pub recall: f64,
     /// How far from its place a particle may lie without being recalled, in m, 1e-6 to 1e3; at twice that it is pulled in full.
     pub recall_from: f64,
@@ -187,7 +188,7 @@ impl Params {
             .any(|pull| *pull > 0.0)
     }
 
-    /// The longest step in s, 1/144 to 1/24, in which a strand of `length` metres, above 0, swings as in fine ones where gravity is
+    /// The longest step in s, 1/144 to 1/48, in which a strand of `length` metres, above 0, swings as in fine ones where gravity is
     /// `gravity` m/s^2: in two seconds, or as long as it swings at all, its first mode lags by no more than a twentieth of a cycle,
     /// unless that needs less than 1/144 s, as of stiff undamped hair shorter than some 0.1 m.
     ///

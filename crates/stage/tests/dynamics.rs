@@ -120,7 +120,7 @@ fn a_simulation_that_is_interrupted_goes_on_from_there() {
         motion.advance_to(scene, time).unwrap();
         motion
     };
-    // Three steps of twelve, of 24 a second: heads and hair are at the same time.
+    // Three steps of 24, two in each of 24 frames a second: heads and hair are at the same time.
     let hand = Hand::new();
     let mut left = 3;
     let goes_on = || {
@@ -129,13 +129,13 @@ fn a_simulation_that_is_interrupted_goes_on_from_there() {
     };
     let advanced = motion.advance_by_hand_while(&scene, 0.5, &hand, goes_on);
     assert!(!advanced.unwrap());
-    assert_eq!(motion.time_s(), 3.0 / 24.0);
+    assert_eq!(motion.time_s(), 3.0 / 48.0);
     assert_eq!(motion.steps_taken(), 3);
-    assert!(means(&scene, &motion) == means(&scene, &at(3.0 / 24.0, &scene)));
+    assert!(means(&scene, &motion) == means(&scene, &at(3.0 / 48.0, &scene)));
     let advanced = motion.advance_by_hand_while(&scene, 0.5, &hand, || true);
     assert!(advanced.unwrap());
     assert_eq!(motion.time_s(), 0.5);
-    assert_eq!(motion.steps_taken(), 12);
+    assert_eq!(motion.steps_taken(), 24);
     assert!(means(&scene, &motion) == means(&scene, &at(0.5, &scene)));
 }
 
@@ -536,8 +536,8 @@ fn the_rate_of_frames_does_not_show() {
     };
     for time in [0.5, 1.0, 2.0] {
         let (wanted, steps) = at("24", time);
-        assert_eq!(steps, (24.0 * time) as u64);
-        for (rate, parts) in [("8", 3), ("12", 2)] {
+        assert_eq!(steps, (48.0 * time) as u64);
+        for (rate, parts) in [("8", 6), ("12", 4)] {
             let (shape, taken) = at(rate, time);
             let frames = (time * rate.parse::<f32>().unwrap()) as u64;
             assert_eq!(taken, frames * parts, "{rate}");
@@ -556,7 +556,7 @@ fn the_rate_of_frames_does_not_show() {
     let mut free = scene(style, Some(TURN), &settings);
     means(&mut free, 1.0);
     println!("undamped: {} steps in 24 frames", free.steps_taken());
-    assert!(free.steps_taken() > 24);
+    assert!(free.steps_taken() > 48);
 }
 
 /// Once hair has come to rest nothing is simulated, with links and volume on.

@@ -49,7 +49,8 @@ pub(crate) struct Contact {
     pub end: Lane,
     /// The surface's velocity from the root, in m/s.
     pub flow: Vec3,
-    /// Rate of friction in 1/s, and the speed in m/s below which it is viscous.
+    /// Coulomb's coefficient, the rate of friction in 1/s, and the speed in m/s below which it is viscous.
+    pub friction: Lane,
     pub slip: Lane,
     pub creep: Lane,
     /// The pressure of the last step in m/s^2, and that which friction is known to be bound by: nothing where the last step was a blow.
@@ -65,6 +66,7 @@ impl Contact {
         mid: Lane::ZERO,
         end: Lane::ZERO,
         flow: Vec3::ZERO,
+        friction: Lane::ZERO,
         slip: Lane::ZERO,
         creep: Lane::ZERO,
         press: Lane::ZERO,
@@ -104,7 +106,14 @@ impl Contact {
         };
         self.bound[lane] = bound;
         self.creep[lane] = creep;
-        self.slip[lane] = batch.friction[lane] * bound / speed;
+        self.friction[lane] = batch.friction[lane];
+        self.slip[lane] = self.friction[lane] * bound / speed;
+    }
+
+    /// Leaves so much of its friction.
+    pub(crate) fn loosen(&mut self, grip: Lane) {
+        self.friction = self.friction * grip;
+        self.slip = self.slip * grip;
     }
 
     /// Where a particle at `y` is behind the plane at `level` and was not held, in the strands that have the plane.
@@ -169,13 +178,13 @@ impl Contact {
     pub(crate) fn rub(
         &mut self,
         node: &mut Node,
-        (friction, mass): (Lane, Lane),
+        mass: Lane,
         (level, d): (Lane, Lane),
         (y, free_y): (Vec3, Vec3),
         among: Mask,
     ) -> Mask {
         let press = self.pressure_at(level, y);
-        let here = (press * friction).gt(Lane::ZERO).and(among);
+        let here = (press * self.friction).gt(Lane::ZERO).and(among);
         let new = (here.and(self.bound.gt(Lane::ZERO).not())).and(self.slip.gt(Lane::ZERO).not());
         if !new.any() {
             return new;
@@ -184,7 +193,7 @@ impl Contact {
         let way = y - carried;
         let way = way - self.normal * self.normal.dot(way);
         let speed = (way.length_squared().sqrt() / d).max(Lane::splat(CREEP));
-        let slip = new.pick(friction * press / speed, Lane::ZERO);
+        let slip = new.pick(self.friction * press / speed, Lane::ZERO);
         self.slip += slip;
         let slide = mass * d * slip;
         node.n += Sym3::outer(slide, self.normal, Lane::ZERO - slide);

@@ -31,6 +31,10 @@ const CALM: f64 = 0.5;
 /// A recalled particle is pulled to so much higher than its place as it is beside that: up and over what lies between.
 const OVER: f64 = 2.0;
 
+/// The pull in m/s^2 with which a particle that is recalled in full slides without friction. What is pulled by less keeps some of it, and what is pulled
+/// by more as well: that gets over what it lies on by itself, and friction lets it come to rest.
+const SLIDES: f64 = 30.0;
+
 /// Nearer than this, in m, to where it is pulled to a particle isn't.
 const LEAST_WAY: f64 = 1e-6;
 
@@ -208,9 +212,10 @@ pub(crate) fn prepare<T: Number>(
     if loads.has_springs {
         loads.springs.fill(Spring::NONE);
     }
+    let recalls = batch.recall.gt(Lane::ZERO).any();
     if batch.has_goal.any() {
         // As two functions, so that who recalls nothing pays nothing.
-        if batch.recall.gt(Lane::ZERO).any() {
+        if recalls {
             pull_to_goals::<T, true>(batch, state, loads, drive);
         } else {
             pull_to_goals::<T, false>(batch, state, loads, drive);
@@ -259,6 +264,9 @@ pub(crate) fn prepare<T: Number>(
     if let Some((index, locks)) = drive.locks {
         let planes = (&mut loads.contacts[..], &mut loads.touched);
         stats.meetings = locks.part((index, batch, &*state), root.root, active, planes);
+    }
+    if recalls {
+        loads.loosen(batch);
     }
     active
 }
@@ -310,6 +318,8 @@ struct Recall<T> {
     lift: Vec3<T>,
     /// By how much the pull grows with the distance, in 1/s^2.
     steepness: T,
+    /// The share of its friction that is left to the particle.
+    grip: T,
 }
 
 impl<T: Number> Recall<T> {
@@ -326,6 +336,8 @@ impl<T: Number> Recall<T> {
         let whole = (middle + lift).length_squared().sqrt();
         let calm = one + restless * T::splat(1.0 / (CALM * CALM));
         let most = batch.recall.load::<T>() / calm;
+        let pull = batch.recall.load::<T>() * T::splat(1.0 / SLIDES);
+        let slides = T::choose(pull.less(one), pull, one / (pull * pull));
         let recalls = |of: T| T::choose(zero.less(share), of, zero);
         let pulls = T::splat(LEAST_WAY).less(whole);
         let stiffness = T::choose(pulls, most * T::choose(part, share, one) / whole, zero);
@@ -333,6 +345,7 @@ impl<T: Number> Recall<T> {
             stiffness: recalls(stiffness),
             lift,
             steepness: recalls(T::choose(part, most / from, zero)),
+            grip: one - recalls(T::choose(part, share, one) * slides / calm),
         }
     }
 }
@@ -419,6 +432,7 @@ fn pull_to_goals<T: Number, const RECALLS: bool>(
                 GAMMA,
                 drive.dt,
             );
+            loads.grips[k] = recall.grip.store();
             // What comes nearer within the step is pulled by less already there: a pull that lags behind makes tips tremble.
             let (here, moved) = (state.y[k].load::<T>(), now - before);
             let of = |share: f64| (here + moved.scale(T::splat(share))).scale(recall.steepness);

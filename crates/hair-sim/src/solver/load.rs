@@ -23,6 +23,8 @@ pub(crate) struct Loads {
     /// Whether there are any springs in this step.
     pub has_springs: bool,
     pub springs: Vec<Spring>,
+    /// The share of its friction that is left to each particle, where any is recalled.
+    pub grips: Vec<Lane>,
     pub contacts: Vec<Contact>,
     /// The planes that particles have in this step, by their places in `contacts`: the first are those of bodies, one for each particle, then come
     /// those of other strands.
@@ -40,6 +42,7 @@ impl Loads {
             free_v: vec![Vec3::ZERO; count],
             has_springs: false,
             springs: vec![Spring::NONE; count],
+            grips: vec![Lane::ONE; count],
             contacts: vec![Contact::NONE; planes],
             touched: Vec::with_capacity(planes),
             ways: Ways::new(count),
@@ -167,6 +170,13 @@ impl Loads {
         )
     }
 
+    /// Takes friction from what is recalled.
+    pub(crate) fn loosen(&mut self, batch: &Batch) {
+        for &plane in &self.touched {
+            self.contacts[plane].loosen(self.grips[batch.held_by(plane)]);
+        }
+    }
+
     /// Gives friction to particles that came to touch in this step, in the strands of `among`. Returns the strands where any is new.
     pub(crate) fn rub<T: Number>(
         &mut self,
@@ -187,9 +197,9 @@ impl Loads {
                         contact.end
                     };
                     let node = &mut self.nodes[k];
-                    let own = (batch.friction, batch.particles[k].mass);
+                    let mass = batch.particles[k].mass;
                     let places = (chain.y[k], self.free_y[k]);
-                    new = new.or(contact.rub(node, own, (level, stage.length), places, among));
+                    new = new.or(contact.rub(node, mass, (level, stage.length), places, among));
                 }
                 new
             },
