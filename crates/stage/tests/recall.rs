@@ -112,17 +112,19 @@ fn all_looks_that_recall_get_their_hair_back() {
     };
     let looks: Vec<PathBuf> = paths.filter(recalls).collect();
     assert!(looks.len() >= 7, "{looks:?}");
-    for angle in [70, -70, 90, -90] {
-        let script = there_and_back(folder.path(), angle);
+    let turn = |angle: i32| (there_and_back(folder.path(), angle), 1.3);
+    let looks_over = presets().join("motions/turn.motion.ron");
+    for (script, end_s) in [turn(70), turn(-70), turn(90), turn(-90), (looks_over, 2.2)] {
+        let name = script.file_name().unwrap().to_str().unwrap();
         for look in &looks {
             let look = look.file_stem().unwrap().to_str().unwrap();
             for fps in ["24", "60"] {
                 let mut moved = Moved::at_rate(fps, look, &script, None);
-                let [soon, later] = moved.left_at([2.3, 9.3]);
+                let [soon, later] = moved.left_at([end_s + 1.0, end_s + 8.0]);
                 println!(
-                    "{look}, {angle} degrees, {fps} frames a second: {soon:.2} and {later:.2} head heights after 1 and 8 s"
+                    "{look}, {name}, {fps} frames a second: {soon:.2} and {later:.2} head heights after 1 and 8 s"
                 );
-                assert!(later < 0.05, "{look}, {angle} degrees, {fps}: {later}");
+                assert!(later < 0.05, "{look}, {name}, {fps}: {later}");
             }
         }
     }
