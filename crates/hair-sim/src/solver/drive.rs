@@ -35,6 +35,13 @@ const OVER: f64 = 2.0;
 /// by more as well: that gets over what it lies on by itself, and friction lets it come to rest.
 const SLIDES: f64 = 30.0;
 
+/// A particle is recalled in full until its goal and the air have hardly moved for the first of these times, in s, and no more after the second: what
+/// goes up and over a shoulder has arrived by then, and what can't arrive falls, and comes to rest as it would without.
+const PATIENCE: [f64; 2] = [1.5, 4.0];
+
+/// A way of the goal or of the air, in m, that halves the time for which they have hardly moved.
+const STIRS: f64 = 0.1;
+
 /// Nearer than this, in m, to where it is pulled to a particle isn't.
 const LEAST_WAY: f64 = 1e-6;
 
@@ -216,9 +223,9 @@ pub(crate) fn prepare<T: Number>(
     if batch.has_goal.any() {
         // As two functions, so that who recalls nothing pays nothing.
         if recalls {
-            pull_to_goals::<T, true>(batch, state, loads, drive);
+            pull_to_goals::<T, true>(batch, state, loads, (drive, root));
         } else {
-            pull_to_goals::<T, false>(batch, state, loads, drive);
+            pull_to_goals::<T, false>(batch, state, loads, (drive, root));
         }
     }
     for own in drive.anchors {
@@ -324,9 +331,14 @@ struct Recall<T> {
 
 impl<T: Number> Recall<T> {
     /// For the ways to the goals, in m, at the start of the step and in its middle, where the sum of the squares of the particles' speed against these
-    /// and of that of the air is `restless`, in m^2/s^2, and `up` is against gravity.
+    /// and of that of the air is `restless`, in m^2/s^2, `up` is against gravity, and goals and air have hardly moved for `lull`, in s.
     #[inline(always)]
-    fn new(batch: &Batch, [way, middle]: [Vec3<T>; 2], restless: T, up: Vec3<T>) -> Self {
+    fn new(
+        batch: &Batch,
+        [way, middle]: [Vec3<T>; 2],
+        (restless, lull): (T, T),
+        up: Vec3<T>,
+    ) -> Self {
         let (zero, one) = (T::splat(0.0), T::splat(1.0));
         let from = batch.recall_from.load::<T>();
         let share = way.length_squared().sqrt() / from - one;
@@ -335,7 +347,11 @@ impl<T: Number> Recall<T> {
         let lift = up.scale(aside.length_squared().sqrt() * T::splat(OVER));
         let whole = (middle + lift).length_squared().sqrt();
         let calm = one + restless * T::splat(1.0 / (CALM * CALM));
-        let most = batch.recall.load::<T>() / calm;
+        let [tires, given_up] = PATIENCE;
+        let left = (T::splat(given_up) - lull) * T::splat(1.0 / (given_up - tires));
+        let left = T::choose(left.less(zero), zero, T::choose(left.less(one), left, one));
+        let strength = left / calm;
+        let most = batch.recall.load::<T>() * strength;
         let pull = batch.recall.load::<T>() * T::splat(1.0 / SLIDES);
         let slides = T::choose(pull.less(one), pull, one / (pull * pull));
         let recalls = |of: T| T::choose(zero.less(share), of, zero);
@@ -345,7 +361,7 @@ impl<T: Number> Recall<T> {
             stiffness: recalls(stiffness),
             lift,
             steepness: recalls(T::choose(part, most / from, zero)),
-            grip: one - recalls(T::choose(part, share, one) * slides / calm),
+            grip: one - recalls(T::choose(part, share, one) * slides * strength),
         }
     }
 }
@@ -355,7 +371,7 @@ fn pull_to_goals<T: Number, const RECALLS: bool>(
     batch: &Batch,
     state: &mut BatchState,
     loads: &mut Loads,
-    drive: &Drive,
+    (drive, root): (&Drive, &RootMotion),
 ) {
     let known = !state.goal.is_empty();
     let turn = (drive.surroundings.acceleration)
@@ -363,6 +379,9 @@ fn pull_to_goals<T: Number, const RECALLS: bool>(
         .filter(|_| known);
     if !known {
         state.goal.resize(batch.count(), Vec3::ZERO);
+    }
+    if RECALLS && state.lull.is_empty() {
+        state.lull.resize(batch.count(), Lane::ZERO);
     }
     let pose = |strand: Option<usize>| {
         strand.map_or(Pose::IDENTITY, |strand| drive.surroundings.roots.of(strand))
@@ -373,6 +392,7 @@ fn pull_to_goals<T: Number, const RECALLS: bool>(
     let turned = Turned::<T>::by(&poses);
     let has_strand = Mask::new(batch.strands.map(|strand| strand.is_some()));
     let air = &drive.gusts[1];
+    let root_velocity = root.velocity.load::<T>();
     let here = T::condition(&has_strand);
     for k in 0..batch.count() {
         let styled = batch.styled[k];
@@ -415,15 +435,21 @@ fn pull_to_goals<T: Number, const RECALLS: bool>(
         spring.pull(stiffness, before, now, acceleration, GAMMA, drive.dt);
         if RECALLS {
             let way = before - state.y[k].load();
-            let speed = state.v[k].load::<T>() - (now - before) * (1.0 / drive.dt);
+            let goal_velocity = (now - before) * (1.0 / drive.dt);
+            let speed = state.v[k].load::<T>() - goal_velocity;
             let mut restless = speed.length_squared();
+            let mut stirred = (root_velocity + goal_velocity).length_squared();
             if air.blows {
                 let place = state.root.load::<T>() + state.y[k].load();
                 let air = air.velocity(place).scale(batch.particles[k].wind.load());
                 restless = restless + air.length_squared();
+                stirred = stirred + air.length_squared();
             }
+            let lull = state.lull[k].load::<T>();
+            let stirs = stirred.sqrt() * T::splat(drive.dt / STIRS);
+            state.lull[k] = (lull / (T::splat(1.0) + stirs) + T::splat(drive.dt)).store();
             let middle = way - speed.scale(T::splat(0.5 * drive.dt));
-            let recall = Recall::new(batch, [way, middle], restless, up);
+            let recall = Recall::new(batch, [way, middle], (restless, lull), up);
             spring.pull(
                 recall.stiffness,
                 before + recall.lift,
