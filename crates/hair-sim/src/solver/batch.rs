@@ -194,7 +194,7 @@ pub(crate) struct BatchState {
     pub creep: Vec<Lane>,
     /// Where goals were, from the root; empty before the first step with goals.
     pub goal: Vec<Vec3>,
-    /// For how long goals and the air around have hardly moved, in s: see [`super::drive`]. Empty where nothing is recalled.
+    /// For how long goals, the air around and bodies have hardly moved, in s: see [`super::drive`]. Empty where nothing is recalled.
     pub lull: Vec<Lane>,
     /// Links to other strands that hold no more: one for every pair of the batch.
     pub broken: Vec<[bool; LANES]>,

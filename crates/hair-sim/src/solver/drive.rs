@@ -35,11 +35,11 @@ const OVER: f64 = 2.0;
 /// by more as well: that gets over what it lies on by itself, and friction lets it come to rest.
 const SLIDES: f64 = 30.0;
 
-/// A particle is recalled in full until its goal and the air have hardly moved for the first of these times, in s, and no more after the second: what
+/// A particle is recalled in full until its goal, the air and all bodies have hardly moved for the first of these times, in s, and no more after the second: what
 /// goes up and over a shoulder has arrived by then, and what can't arrive falls, and comes to rest as it would without.
 const PATIENCE: [f64; 2] = [1.5, 4.0];
 
-/// A way of the goal or of the air, in m, that halves the time for which they have hardly moved.
+/// A way of the goal, of the air or of a body, in m, that halves the time for which they have hardly moved.
 const STIRS: f64 = 0.1;
 
 /// Nearer than this, in m, to where it is pulled to a particle isn't.
@@ -331,7 +331,7 @@ struct Recall<T> {
 
 impl<T: Number> Recall<T> {
     /// For the ways to the goals, in m, at the start of the step and in its middle, where the sum of the squares of the particles' speed against these
-    /// and of that of the air is `restless`, in m^2/s^2, `up` is against gravity, and goals and air have hardly moved for `lull`, in s.
+    /// and of that of the air is `restless`, in m^2/s^2, `up` is against gravity, and hardly anything has moved them for `lull`, in s.
     #[inline(always)]
     fn new(
         batch: &Batch,
@@ -393,6 +393,12 @@ fn pull_to_goals<T: Number, const RECALLS: bool>(
     let has_strand = Mask::new(batch.strands.map(|strand| strand.is_some()));
     let air = &drive.gusts[1];
     let root_velocity = root.velocity.load::<T>();
+    let ways = drive.guards.iter().map(Guard::way);
+    let bodies = if RECALLS {
+        ways.fold(0.0, f64::max) / drive.dt
+    } else {
+        0.0
+    };
     let here = T::condition(&has_strand);
     for k in 0..batch.count() {
         let styled = batch.styled[k];
@@ -438,7 +444,8 @@ fn pull_to_goals<T: Number, const RECALLS: bool>(
             let goal_velocity = (now - before) * (1.0 / drive.dt);
             let speed = state.v[k].load::<T>() - goal_velocity;
             let mut restless = speed.length_squared();
-            let mut stirred = (root_velocity + goal_velocity).length_squared();
+            let mut stirred =
+                (root_velocity + goal_velocity).length_squared() + T::splat(bodies * bodies);
             if air.blows {
                 let place = state.root.load::<T>() + state.y[k].load();
                 let air = air.velocity(place).scale(batch.particles[k].wind.load());

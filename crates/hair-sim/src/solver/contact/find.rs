@@ -53,6 +53,12 @@ impl Guard {
         }
     }
 
+    /// How far the middle of the body goes in the step, in m.
+    pub(crate) fn way(&self) -> f64 {
+        let before = self.carry.transpose() * (self.center - self.shift);
+        self.center.distance(before)
+    }
+
     /// Whether particles that go from `from` to `to` and keep `keep` may come near the body. A little more than
     /// [`Path::against`] asks for, which has the last word.
     #[inline(always)]
