@@ -11,9 +11,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use stroke_path::Camera;
 
-/// How much of what shows a highlight in either of two frames, 1/24 s apart, may show it in one of them alone. Of twin tails it is 0.37 as their motion's
-/// steps grow short.
-const MOST: f64 = 0.38;
+/// How much of what shows a highlight in either of two frames, 1/24 s apart, may show it in one of them alone.
+const MOST: f64 = 0.35;
 /// Frames of the motion that are compared: the head turns in both directions.
 const FRAMES: u32 = 48;
 const FPS: f32 = 24.0;
