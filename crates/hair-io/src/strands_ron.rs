@@ -257,6 +257,14 @@ fn mirror(points: &[Vec3]) -> Vec<Vec3> {
 fn syntax_message(error: &ron::Error) -> String {
     match error {
         ron::Error::ExceededRecursionLimit => "brackets are nested too deeply here".to_owned(),
+        // Such as that of a preset, given in place of a strands file.
+        ron::Error::NoSuchStructField {
+            expected, found, ..
+        } => format!(
+            "strands have no {} here; there are: {}",
+            shown(&format!("`{found}`")),
+            expected.join(", ")
+        ),
         other => shown(&other.to_string()),
     }
 }

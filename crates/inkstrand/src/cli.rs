@@ -2,6 +2,7 @@
 
 use crate::pass::Pass;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use render::MAX_SIZE;
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
@@ -317,9 +318,17 @@ fn parse_frames(text: &str) -> Result<(u32, u32), String> {
 }
 
 fn parse_size(text: &str) -> Result<(u32, u32), String> {
-    text.split_once(['x', 'X'])
+    let (width, height) = text
+        .split_once(['x', 'X'])
         .and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)))
-        .ok_or_else(|| "a size is WxH, such as 960x720".to_owned())
+        .ok_or_else(|| "a size is WxH, such as 960x720".to_owned())?;
+    if [width, height]
+        .iter()
+        .any(|side| !(1..=MAX_SIZE).contains(side))
+    {
+        return Err(format!("sides are 1 to {MAX_SIZE} pixels long"));
+    }
+    Ok((width, height))
 }
 
 #[cfg(test)]
@@ -342,6 +351,7 @@ mod tests {
         assert!(parse_time("-1").is_err() && parse_time("1e6").is_err());
         assert_eq!(parse_size("960x720"), Ok((960, 720)));
         assert!(parse_size("960").is_err() && parse_size("-1x4").is_err());
+        assert!(parse_size("0x720").is_err() && parse_size("960x16385").is_err());
         assert!(parse_numbers("30,NaN").is_err() && parse_numbers("30,").is_err());
     }
 }

@@ -97,12 +97,12 @@ fn errors_tell_the_line_and_the_column() {
     starts(
         "id: 40",
         "di: 40",
-        "line 8, column 10: Unexpected field named `di`",
+        "line 8, column 10: strands have no `di` here; there are: ",
     );
     starts(
         "motion:",
         "motions:",
-        "line 10, column 5: Unexpected field named `motions`",
+        "line 10, column 5: strands have no `motions` here; there are: version, strands, motion",
     );
     starts(
         "time: 0.5",

@@ -50,9 +50,10 @@ fn find<'r>(name: Option<&str>, registry: &'r Registry) -> Result<Found<'r>, Fai
     }
     let effects = registry.iter().map(AnyEffect::id);
     let sections = sections();
+    let named = |part: &&FilePart| sections.iter().any(|section| section.name == part.name);
     let names = effects
         .chain(sections.iter().map(|section| section.name))
-        .chain(parts().map(|part| part.name));
+        .chain(parts().filter(|part| !named(part)).map(|part| part.name));
     let hint = suggestion(name, names);
     Err(Failure::Usage(format!(
         "there is no effect, section, or part of a style or motion `{name}`{hint}"
