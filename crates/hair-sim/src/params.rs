@@ -146,8 +146,8 @@ pub struct Params {
     /// Pull of every particle that has come to lie far from its place in the goal shape, such as on the other side of a shoulder, in m/s^2, 0 to 1e4, whatever
     /// the distance. It goes up and over what lies between, is damped, critically where it pulls in full, and fades where hair moves against the shape, and where air
     /// blows: what swings or streams is hardly pulled. What it pulls slides: friction counts for
-    /// less, and for nothing where the pull is 30 m/s^2. What can't get back gives up, so that it comes to rest: a particle is recalled in full for the first
-    /// 1.5 s in which its place, the air and all bodies have hardly moved, and no more after 4 s.
+    /// less, and for nothing where the pull is 30 m/s^2. What can't get back and doesn't rest gives up: a particle is recalled in full for 1.5 s of motion
+    /// while its place, the air and all bodies hardly move, and no more after 4 s.
     pub recall: f64,
     /// How far from its place a particle may lie without being recalled, in m, 1e-6 to 1e3; at twice that it is pulled in full.
     pub recall_from: f64,

@@ -417,7 +417,7 @@ fn wrong_usage_exits_2() {
         (&["render", "small.ron", "--size", "80"], "WxH"),
         (
             &["render", "small.ron", "--size", "0x60"],
-            "size: expected width and height",
+            "sides are 1 to 16384 pixels long",
         ),
         (&["render", "small.ron", "--camera", "1"], "YAW,PITCH"),
         (

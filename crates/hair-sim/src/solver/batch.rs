@@ -194,8 +194,8 @@ pub(crate) struct BatchState {
     pub creep: Vec<Lane>,
     /// Where goals were, from the root; empty before the first step with goals.
     pub goal: Vec<Vec3>,
-    /// For how long goals, the air around and bodies have hardly moved, in s: see [`super::drive`]. Empty where nothing is recalled.
-    pub lull: Vec<Lane>,
+    /// For how long particles have moved by themselves, in s: see [`super::drive`]. Empty where nothing is recalled.
+    pub alone: Vec<Lane>,
     /// Links to other strands that hold no more: one for every pair of the batch.
     pub broken: Vec<[bool; LANES]>,
     /// What pulled on the strands in the last step if nothing drove them in it (in m/s^2), and the most energy that they may
@@ -233,7 +233,7 @@ impl BatchState {
             press: vec![Lane::ZERO; batch.planes],
             creep: vec![Lane::splat(CREEP); batch.planes],
             goal: Vec::new(),
-            lull: Vec::new(),
+            alone: Vec::new(),
             broken: Vec::new(),
             pull: NO_PULL,
             ceiling: Lane::ZERO,
@@ -275,7 +275,7 @@ impl BatchState {
             && (self.lifts.is_empty() || self.lifts.len() == count)
             && planes.iter().all(|list| list.len() == batch.planes)
             && (self.goal.is_empty() || self.goal.len() == count)
-            && (self.lull.is_empty() || self.lull.len() == count)
+            && (self.alone.is_empty() || self.alone.len() == count)
     }
 
     /// The strands that are set aside.

@@ -35,11 +35,15 @@ const OVER: f64 = 2.0;
 /// by more as well: that gets over what it lies on by itself, and friction lets it come to rest.
 const SLIDES: f64 = 30.0;
 
-/// A particle is recalled in full until its goal, the air and all bodies have hardly moved for the first of these times, in s, and no more after the second: what
-/// goes up and over a shoulder has arrived by then, and what can't arrive falls, and comes to rest as it would without.
+/// A particle is recalled in full until it has moved by itself for the first of these times, in s, while its goal, the air and all bodies hardly did, and no
+/// more after the second: what goes up and over a shoulder has arrived by then. What can't arrive and doesn't come to rest either, as that pull can drive hair
+/// round, does so without it.
 const PATIENCE: [f64; 2] = [1.5, 4.0];
 
-/// A way of the goal, of the air or of a body, in m, that halves the time for which they have hardly moved.
+/// At this speed, in m/s, half of a time counts as moved.
+const MOVES: f64 = 0.01;
+
+/// A way of the goal, of the air or of a body, in m, that halves the time for which a particle has moved by itself.
 const STIRS: f64 = 0.1;
 
 /// Nearer than this, in m, to where it is pulled to a particle isn't.
@@ -331,12 +335,12 @@ struct Recall<T> {
 
 impl<T: Number> Recall<T> {
     /// For the ways to the goals, in m, at the start of the step and in its middle, where the sum of the squares of the particles' speed against these
-    /// and of that of the air is `restless`, in m^2/s^2, `up` is against gravity, and hardly anything has moved them for `lull`, in s.
+    /// and of that of the air is `restless`, in m^2/s^2, `up` is against gravity, and they have moved by themselves for `alone`, in s.
     #[inline(always)]
     fn new(
         batch: &Batch,
         [way, middle]: [Vec3<T>; 2],
-        (restless, lull): (T, T),
+        (restless, alone): (T, T),
         up: Vec3<T>,
     ) -> Self {
         let (zero, one) = (T::splat(0.0), T::splat(1.0));
@@ -348,7 +352,7 @@ impl<T: Number> Recall<T> {
         let whole = (middle + lift).length_squared().sqrt();
         let calm = one + restless * T::splat(1.0 / (CALM * CALM));
         let [tires, given_up] = PATIENCE;
-        let left = (T::splat(given_up) - lull) * T::splat(1.0 / (given_up - tires));
+        let left = (T::splat(given_up) - alone) * T::splat(1.0 / (given_up - tires));
         let left = T::choose(left.less(zero), zero, T::choose(left.less(one), left, one));
         let strength = left / calm;
         let most = batch.recall.load::<T>() * strength;
@@ -380,8 +384,8 @@ fn pull_to_goals<T: Number, const RECALLS: bool>(
     if !known {
         state.goal.resize(batch.count(), Vec3::ZERO);
     }
-    if RECALLS && state.lull.is_empty() {
-        state.lull.resize(batch.count(), Lane::ZERO);
+    if RECALLS && state.alone.is_empty() {
+        state.alone.resize(batch.count(), Lane::ZERO);
     }
     let pose = |strand: Option<usize>| {
         strand.map_or(Pose::IDENTITY, |strand| drive.surroundings.roots.of(strand))
@@ -452,11 +456,13 @@ fn pull_to_goals<T: Number, const RECALLS: bool>(
                 restless = restless + air.length_squared();
                 stirred = stirred + air.length_squared();
             }
-            let lull = state.lull[k].load::<T>();
+            let alone = state.alone[k].load::<T>();
             let stirs = stirred.sqrt() * T::splat(drive.dt / STIRS);
-            state.lull[k] = (lull / (T::splat(1.0) + stirs) + T::splat(drive.dt)).store();
+            let moves = speed.length_squared().sqrt();
+            let counts = T::splat(drive.dt) * moves / (moves + T::splat(MOVES));
+            state.alone[k] = (alone / (T::splat(1.0) + stirs) + counts).store();
             let middle = way - speed.scale(T::splat(0.5 * drive.dt));
-            let recall = Recall::new(batch, [way, middle], (restless, lull), up);
+            let recall = Recall::new(batch, [way, middle], (restless, alone), up);
             spring.pull(
                 recall.stiffness,
                 before + recall.lift,
