@@ -41,7 +41,7 @@ const SLIDES: f64 = 30.0;
 const PATIENCE: [f64; 2] = [1.5, 4.0];
 
 /// At this speed, in m/s, half of a time counts as moved.
-const MOVES: f64 = 0.01;
+const MOVES: f64 = 0.02;
 
 /// A way of the goal, of the air or of a body, in m, that halves the time for which a particle has moved by itself.
 const STIRS: f64 = 0.1;
