@@ -8,7 +8,7 @@
 //! - `rods`: the two kinds of strands, `curled` and `straight`, behind one interface
 //! - `scratch`: what a step works with
 //! - `neighbours`; `locks`: strands that meet; `drive`: what drives a batch in a step
-//! - `sleep`: which strands cost nothing
+//! - `unrest`: strands that jam; `sleep`: which strands cost nothing
 //! - `tr_bdf2`, the integrator; `safe`, the one behind it; `energy`, which keeps them from making any; `finish`
 //! - `step`: all of a batch's step
 //!
@@ -36,6 +36,7 @@ mod sleep;
 mod stage;
 mod step;
 mod tr_bdf2;
+mod unrest;
 
 use glam::{DQuat, DVec3, Vec3};
 

@@ -652,3 +652,68 @@ fn locks_keep_out_of_each_other_in_looks() {
         assert!(ratio < 1.4, "{look}: {ratio}");
     }
 }
+
+/// Locks that a violent shake leaves pressed against each other come to rest at 60 frames a second, and sleep.
+#[test]
+fn locks_that_jam_come_to_rest() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        fs::write(&path, text).unwrap();
+        path
+    };
+    let hair = file(
+        "ponytail.style.ron",
+        r#"(version: 1, seed: 6, zones: [
+            (name: "cap", roots: whorl, tips: hairline(-180, 180), count: 30, hang: 0.05, lift: 0.03),
+            (name: "tail", form: tail, roots: [(180, 60)], root_lift: 0.06, hang: 2.4, count: 14, fullness: 0.22, tie: 0.07,
+                length_variation: 0.4, groups: 4, gather: 0.6, root_size: 0.7),
+            (name: "fringe", count: 13, roots: [(-84, 70), (0, 84), (84, 70)], tips: [(-62, -10), (-30, 2), (0, -4), (30, 2), (62, -12)],
+                root_lift: 0.04, lift: 0.08, tip_lift: 0.03, size: 24, mixed_sizes: 0.4, length_variation: 0.25, groups: 5, gather: 0.7),
+        ])"#,
+    );
+    let shake = file(
+        "shake.motion.ron",
+        "(version: 1, moves: [(move: turn, start: 0.2, length: 0.2, angle: 80), (move: turn, start: 1, length: 0.2, angle: -150),
+            (move: turn, start: 1.8, length: 0.25, angle: 70)])",
+    );
+    let mut registry = Registry::new();
+    effects_builtin::register(&mut registry).unwrap();
+    let text = fs::read_to_string(presets().join("outlined.ron")).unwrap();
+    let mut preset = Preset::parse("look.ron", &text, &registry).unwrap();
+    let settings = [
+        ("scene.fps", "60"),
+        ("dynamics.locks", "1"),
+        ("dynamics.feel", "springy"),
+    ];
+    for (name, value) in settings {
+        preset.set(name, value).unwrap();
+    }
+    let files = Files {
+        preset_folder: presets(),
+        hair: Some(hair),
+        motion: Some(shake),
+        ..Files::default()
+    };
+    let mut stage = Stage::new(&preset, &files).unwrap();
+    // The speed of the fastest middle of a strand in each second, in mm/s.
+    let mut last = means(&mut stage, 0.0);
+    let speeds: Vec<f32> = (0..14)
+        .map(|second| {
+            (1..=60).fold(0.0_f32, |fastest, frame| {
+                let next = means(&mut stage, second as f32 + frame as f32 / 60.0);
+                let way = farthest(&next, &last);
+                last = next;
+                fastest.max(way * 60e3)
+            })
+        })
+        .collect();
+    let asleep = (15..=60).find(|&second| {
+        stage.advance_to(second as f32).unwrap();
+        let stats = stage.simulated();
+        stats.strands == 0 && stats.asleep > 0
+    });
+    println!("{speeds:.1?} mm/s; asleep after {asleep:?} s");
+    assert!(speeds[13] < 0.3);
+    assert!(asleep.is_some_and(|second| second <= 40), "{asleep:?}");
+}

@@ -196,6 +196,8 @@ pub(crate) struct BatchState {
     pub goal: Vec<Vec3>,
     /// For how long particles have moved by themselves, in s: see [`super::drive`]. Empty where nothing is recalled.
     pub alone: Vec<Lane>,
+    /// For how long strands have moved by themselves while others pressed on them or a tie held them, in s: see [`super::unrest`].
+    pub restless: Lane,
     /// Links to other strands that hold no more: one for every pair of the batch.
     pub broken: Vec<[bool; LANES]>,
     /// What pulled on the strands in the last step if nothing drove them in it (in m/s^2), and the most energy that they may
@@ -234,6 +236,7 @@ impl BatchState {
             creep: vec![Lane::splat(CREEP); batch.planes],
             goal: Vec::new(),
             alone: Vec::new(),
+            restless: Lane::ZERO,
             broken: Vec::new(),
             pull: NO_PULL,
             ceiling: Lane::ZERO,

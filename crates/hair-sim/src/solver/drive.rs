@@ -44,7 +44,7 @@ const PATIENCE: [f64; 2] = [1.5, 4.0];
 const MOVES: f64 = 0.02;
 
 /// A way of the goal, of the air or of a body, in m, that halves the time for which a particle has moved by itself.
-const STIRS: f64 = 0.1;
+pub(super) const STIRS: f64 = 0.1;
 
 /// Nearer than this, in m, to where it is pulled to a particle isn't.
 const LEAST_WAY: f64 = 1e-6;
@@ -88,6 +88,11 @@ impl<'a> Drive<'a> {
             now,
             dt: self.dt,
         }
+    }
+
+    /// How fast the middle of the fastest body goes, in m/s.
+    pub(crate) fn speed_of_bodies(&self) -> f64 {
+        self.guards.iter().map(Guard::way).fold(0.0, f64::max) / self.dt
     }
 }
 
@@ -397,9 +402,8 @@ fn pull_to_goals<T: Number, const RECALLS: bool>(
     let has_strand = Mask::new(batch.strands.map(|strand| strand.is_some()));
     let air = &drive.gusts[1];
     let root_velocity = root.velocity.load::<T>();
-    let ways = drive.guards.iter().map(Guard::way);
     let bodies = if RECALLS {
-        ways.fold(0.0, f64::max) / drive.dt
+        drive.speed_of_bodies()
     } else {
         0.0
     };

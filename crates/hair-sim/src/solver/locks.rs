@@ -50,6 +50,9 @@ const LACKING: f64 = 5.0;
 /// A plane holds the end of a link where it touches within this share of the link from that end.
 const END: f64 = 0.75;
 
+/// Locks part by less once one of both has been restless for the first of these times, in s, and no more after the second: see [`super::unrest`].
+pub(super) const PATIENCE: [f64; 2] = [2.0, 4.0];
+
 /// Tasks that look for planes in a step.
 const TASKS: usize = 8;
 /// Pairs of fours that are worth a task.
@@ -79,6 +82,8 @@ struct Near {
     keep: Lane,
     goes: Lane,
     shift: Vec3,
+    /// The share that they part by of what those do that aren't restless.
+    parts: Lane,
     sides: [[Link; 2]; LANES],
 }
 
@@ -89,6 +94,7 @@ impl Near {
         keep: Lane::ZERO,
         goes: Lane::ZERO,
         shift: Vec3::ZERO,
+        parts: Lane::ZERO,
         sides: [[Link {
             piece: 0,
             number: 0,
@@ -137,6 +143,8 @@ pub(super) struct Locks {
     /// The first piece of every four of a strand.
     fours: Vec<usize>,
     keeps: Keeps,
+    /// By what share of others' way each piece parts in the step at hand.
+    parts: Vec<f64>,
     /// The first particle of every batch in the list of all: particle by particle, lane by lane.
     particles: Vec<usize>,
     /// Of the step at hand.
@@ -195,6 +203,7 @@ impl Locks {
         }
         let mut locks = Self {
             keeps: Keeps::new(&[]),
+            parts: vec![1.0; pieces.len()],
             dt: 0.0,
             ways: Ways::new(batches, &pieces),
             pairs: Pairs::new(strands),
@@ -266,6 +275,11 @@ impl Locks {
         dt: f64,
     ) {
         self.dt = dt;
+        for (parts, piece) in self.parts.iter_mut().zip(&self.pieces) {
+            let [from, until] = PATIENCE;
+            let restless = states[piece.batch].restless[piece.lane];
+            *parts = ((until - restless) / (until - from)).clamp(0.0, 1.0);
+        }
         self.ways
             .follow::<T>(batches, states, (surroundings, dt), (0.0, 0.0));
         self.pairs.find(&self.ways.bounds);
@@ -405,6 +419,7 @@ impl Locks {
         let goes = f64::from(self.ways.sweeps[own].own + self.ways.sweeps[other].own);
         let [piece, its] = [&self.pieces[own], &self.pieces[other]];
         let shift = (self.ways.shift(piece) + self.ways.shift(its)) * 0.5;
+        let parts = self.parts[own].min(self.parts[other]);
         let side = usize::from(piece.id > its.id);
         while found != 0 {
             let link = found.trailing_zeros() as usize;
@@ -416,6 +431,7 @@ impl Locks {
             near.keep[lane] = keep;
             near.goes[lane] = goes;
             near.shift.set(lane, shift);
+            near.parts[lane] = parts;
             let sides = &mut near.sides[lane];
             (sides[side].piece, sides[side].number) = (own, i);
             (sides[1 - side].piece, sides[1 - side].number) = (other, j);
@@ -433,7 +449,7 @@ impl Locks {
             #[inline(always)]
             || {
                 let links = [near.links[0].load::<T>(), near.links[1].load::<T>()];
-                let keep = (near.keep.load(), near.goes.load());
+                let keep = (near.keep.load(), near.goes.load(), near.parts.load());
                 Meeting::of(&links[0], &links[1], keep, (near.shift.load(), self.dt))
             },
         );

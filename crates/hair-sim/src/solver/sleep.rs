@@ -26,6 +26,10 @@ const QUIET_TIME: f64 = 1.0;
 /// this ball for so long, in m and s. That bounds the speed of what goes somewhere nearly as the others do.
 const TREMBLING_WAY: f64 = 2.4e-5;
 const TREMBLING_TIME: f64 = 4.0;
+/// What has been restless for longer than the second of these, in s, is quiet within a ball of the first, in m, for as long as what trembles: where locks jam
+/// they shove each other about by some micrometres a step.
+const JAMMED_WAY: f64 = 1e-3;
+const JAMMED_TIME: f64 = 0.5;
 
 /// Which strands act on each other: the island of every lane of every batch, by a number below `count`.
 #[derive(Clone, Debug, Default)]
@@ -173,6 +177,8 @@ pub(super) fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, 
 
     let most = most * (TREMBLING_WAY / QUIET_WAY);
     let way = is_free.pick(Lane::ZERO, most.min(Lane::splat(TREMBLING_WAY)));
+    let jams = state.restless.gt(Lane::splat(JAMMED_TIME));
+    let way = jams.pick(Lane::splat(JAMMED_WAY), way);
     // What went farther than all across the ball has left it: what is under way costs no more than this.
     let slow = active.and(gone.lt(way * way * 4.0));
     let mut stays = slow.and(state.trembling.gt(Lane::ZERO));

@@ -17,6 +17,7 @@ use super::{
     scratch::Scratch,
     sleep::count_quiet,
     tr_bdf2,
+    unrest::calm_down,
 };
 
 /// Advances a batch by `drive.dt`.
@@ -46,6 +47,9 @@ pub(crate) fn advance<T: Number>(
             let awake = asleep.not();
             let active = prepare::<T>(rods, batch, state, scratch, drives, awake, &mut stats);
             stats.strands = active.count();
+            if drive.locks.is_some() || !drive.anchors.is_empty() {
+                calm_down(batch, state, &mut scratch.work.loads, drives, active);
+            }
 
             let found = tr_bdf2::step::<T>(rods, batch, state, scratch, drives, active);
             stats.iterations = found.iterations;

@@ -102,12 +102,12 @@ impl Meeting {
     /// Links that keep `keep` metres from each other meet where they come as near as that by their own motion in a step of `dt` seconds, or so near
     /// that what acts in the step may bring them together: by as much again as they move against each other, or go against their
     /// roots (`own`, in m, of both together), whichever is less, where that isn't [`SLOW`], and by [`NEAR`]. `shift` is the mean way of both roots.
-    /// None where none do.
+    /// Of what they would part by if they are found in each other they do this share: `parts`. None where none do.
     #[inline(always)]
     pub(super) fn of<T: Number>(
         link: &Links<T>,
         other: &Links<T>,
-        (keep, own): (T, T),
+        (keep, own, parts): (T, T, T),
         (shift, dt): (Vec3<T>, f64),
     ) -> Option<Self> {
         let (zero, one, half) = (T::splat(0.0), T::splat(1.0), T::splat(0.5));
@@ -152,7 +152,7 @@ impl Meeting {
         let along = normal.dot(shift) + shared_way(own, its);
         // What lies in each other parts slowly.
         let lacks = most(keep - distance, zero);
-        let part = least(T::splat(PART) * lacks, T::splat(PART_SPEED * dt));
+        let part = parts * least(T::splat(PART) * lacks, T::splat(PART_SPEED * dt));
         let keep = least(keep, distance + part);
         let past = half * (keep - normal.dot(before - its_before));
         let push = [
@@ -315,7 +315,7 @@ mod tests {
         let (mut meet, mut pass) = (0, 0);
         for seed in 0..300 {
             let (link, other) = (links(2 * seed), links(2 * seed + 1));
-            let lanes = (Lane::splat(keep), Lane::splat(own));
+            let lanes = (Lane::splat(keep), Lane::splat(own), Lane::ONE);
             let meeting = Meeting::of(&link, &other, lanes, (Vec3::ZERO, 1.0 / 60.0));
             for lane in 0..LANES {
                 let looks = (0..=200).map(|i| {
