@@ -65,7 +65,8 @@ impl Acceleration {
 /// Of an anchor, 1/s^2.
 const MOST_STIFFNESS: f64 = 1e9;
 
-/// A place in the world that one point of a strand is pulled to, damped critically. Solvers of `compare` know none.
+/// A place in the world that one point of a strand is pulled to, damped critically. A strand that lies on a body and moves for 2 s while its
+/// anchors and all else rest begins to stick to the head. Solvers of `compare` know none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Anchor {
     /// The strand, by its index.

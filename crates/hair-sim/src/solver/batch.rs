@@ -196,7 +196,7 @@ pub(crate) struct BatchState {
     pub goal: Vec<Vec3>,
     /// For how long particles have moved by themselves, in s: see [`super::drive`]. Empty where nothing is recalled.
     pub alone: Vec<Lane>,
-    /// For how long strands have moved by themselves while others pressed on them or a tie held them, in s: see [`super::unrest`].
+    /// For how long strands have moved by themselves while others pressed on them, or a body on those that are tied, in s: see [`super::unrest`].
     pub restless: Lane,
     /// Links to other strands that hold no more: one for every pair of the batch.
     pub broken: Vec<[bool; LANES]>,

@@ -2,7 +2,7 @@
 //!
 //! Where locks that keep out of each other are pressed together there may be no place in which all of them do. Each step holds a particle by the
 //! plane that is most urgent, the next by another, and what is shoved to and fro would tremble for ever. So would strands that a tie gathers over a
-//! body. A strand that others press on, or that is tied, and that has moved by itself for some seconds gives in: its locks part no more
+//! body. A strand that others press on, or a body where anchors hold it, and that has moved by itself for some seconds gives in: its locks part no more
 //! ([`super::locks::PATIENCE`]), and it sticks where it is on the head, the faster the longer it goes on, as hair does that has felted. What swings out
 //! has come to rest before that. Roots, air, bodies and anchors that move make it forget.
 
@@ -20,9 +20,6 @@ use super::{
 
 /// At this speed of a strand's fastest particle, in m/s, half of a time counts as moved.
 const MOVES: f64 = 1e-3;
-
-/// The share of that which counts where nothing but a tie holds strands: they swing for longer.
-const OF_TIES: f64 = 0.5;
 
 /// The drag in 1/s of what has been restless for a second more than [`PATIENCE`]. It grows with the fourth power of that time: what moves slows down within half
 /// a second, and what is driven on hardly creeps after two.
@@ -51,15 +48,19 @@ pub(super) fn calm_down(
     }
 }
 
-/// What counts of the step before as moved, in s, where others press on strands or a tie holds them.
+/// What counts of the step before as moved, in s, where others press on strands, or a body on those that are tied.
 #[inline(always)]
 fn moved(batch: &Batch, state: &BatchState, drive: &Drive) -> Lane {
-    let mut held = Lane::ZERO;
+    let (bodies, others) = state.press.split_at(batch.count());
+    let mut tied = Lane::ZERO;
     for own in drive.anchors {
-        held[own.lane] = OF_TIES;
+        tied[own.lane] = 1.0;
     }
-    // Of bodies first, then of other strands.
-    for press in &state.press[batch.count()..] {
+    let mut held = Lane::ZERO;
+    for press in bodies {
+        held = press.gt(Lane::ZERO).pick(tied, held);
+    }
+    for press in others {
         held = press.gt(Lane::ZERO).pick(Lane::ONE, held);
     }
     // Goals that go through key shapes move strands themselves.
