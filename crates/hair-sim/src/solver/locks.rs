@@ -143,7 +143,7 @@ pub(super) struct Locks {
     /// The first piece of every four of a strand.
     fours: Vec<usize>,
     keeps: Keeps,
-    /// By what share of others' way each piece parts in the step at hand.
+    /// How much of the way each piece parts by in the step at hand that it would if it weren't restless, 0 to 1.
     parts: Vec<f64>,
     /// The first particle of every batch in the list of all: particle by particle, lane by lane.
     particles: Vec<usize>,

@@ -119,7 +119,9 @@ fn stick(
 
 #[cfg(test)]
 mod tests {
-    use crate::{Anchor, Params, Pose, Roots, Solver, State, Strands, Surroundings};
+    use crate::{
+        Anchor, Collider, Params, Pose, Roots, Shape, Solver, State, Strands, Surroundings, Wind,
+    };
     use glam::{DQuat, DVec3, Vec3};
 
     /// A strand of 20 cm that hangs, and has been restless for so many seconds.
@@ -132,21 +134,49 @@ mod tests {
         (solver, state)
     }
 
-    /// Steps it at 60 frames a second with the head here, and its tip held where it is, by nearly nothing.
-    fn step((solver, state): &mut (Solver, State), head: Pose) {
+    /// Nothing acts but gravity and an anchor at the tip that pulls by nearly nothing.
+    fn at_rest(anchors: &[Anchor]) -> Surroundings<'_> {
+        Surroundings {
+            anchors,
+            ..Surroundings::default()
+        }
+    }
+
+    /// An anchor at the tip that goes by this in a step, in m.
+    fn anchor(way: f64) -> [Anchor; 1] {
         let tip = DVec3::NEG_Y * 0.2;
-        let anchors = [Anchor {
+        [Anchor {
             strand: 0,
             point: 10,
             stiffness: 1e-9,
-            places: [tip; 2],
-        }];
-        let surroundings = Surroundings {
-            roots: Roots::Head(head),
-            anchors: &anchors,
-            ..Surroundings::default()
+            places: [tip, tip + DVec3::X * way],
+        }]
+    }
+
+    /// A ball on the left, 1 mm away from the strand, that goes upwards by this in a step, in m.
+    fn ball(way: f64) -> [Collider<'static>; 1] {
+        let at = |y| Pose {
+            translation: DVec3::new(-0.051, y - 0.1, 0.0),
+            rotation: DQuat::IDENTITY,
         };
-        solver.step(state, &surroundings, 1.0 / 60.0).unwrap();
+        [Collider {
+            shape: Shape::Sphere {
+                center: DVec3::ZERO,
+                radius: 0.05,
+            },
+            before: at(0.0),
+            now: at(way),
+            was: None,
+        }]
+    }
+
+    /// Steps it at 60 frames a second.
+    fn step((solver, state): &mut (Solver, State), surroundings: &Surroundings) {
+        solver.step(state, surroundings, 1.0 / 60.0).unwrap();
+    }
+
+    fn restless((_, state): &(Solver, State)) -> f64 {
+        state.batches[0].restless[0]
     }
 
     /// How fast the tip still goes after a quarter of a second, of 1 m/s.
@@ -155,7 +185,8 @@ mod tests {
         for (k, v) in hair.1.batches[0].v.iter_mut().enumerate() {
             v.x[0] = 0.1 * (k + 1) as f64;
         }
-        (0..15).for_each(|_| step(&mut hair, Pose::IDENTITY));
+        let anchors = anchor(0.0);
+        (0..15).for_each(|_| step(&mut hair, &at_rest(&anchors)));
         hair.1.batches[0].v[9].get(0).length()
     }
 
@@ -166,23 +197,62 @@ mod tests {
         assert!(stuck < 1e-3, "{stuck}");
     }
 
+    /// What is tied and lies on a body counts, and nothing that is free of either.
     #[test]
-    fn a_head_that_moves_makes_it_forget() {
-        let mut hair = hanging(6.0);
-        // There and back by 0.1 m, and round by a third of a turn.
-        for frame in 1..=24_i32 {
-            let way = f64::from(12 - (frame - 12).abs()) * 0.1 / 12.0;
-            let head = Pose {
-                rotation: DQuat::from_rotation_y(0.1 * f64::from(frame)),
-                translation: DVec3::X * way,
+    fn a_tied_strand_is_restless_where_it_rubs_on_a_body() {
+        let (ball, anchors) = (ball(0.0), anchor(0.0));
+        let counts = |colliders, anchors| {
+            let mut hair = hanging(0.0);
+            for (k, v) in hair.1.batches[0].v.iter_mut().enumerate() {
+                v.z[0] = 0.1 * (k + 1) as f64;
+            }
+            let surroundings = Surroundings {
+                // Towards the ball.
+                gravity: DVec3::new(-5.0, -8.0, 0.0),
+                colliders,
+                ..at_rest(anchors)
             };
-            step(&mut hair, head);
+            (0..30).for_each(|_| step(&mut hair, &surroundings));
+            restless(&hair)
+        };
+        assert!(counts(&ball, &anchors) > 0.1);
+        assert_eq!(counts(&ball, &[]), 0.0);
+        assert_eq!(counts(&[], &anchors), 0.0);
+    }
+
+    /// A way of 0.1 m in a second, of whatever acts, leaves less than a half of the time.
+    #[test]
+    fn what_moves_makes_it_forget() {
+        fn left<'a>(surroundings: impl Fn(f64) -> Surroundings<'a>) -> f64 {
+            let mut hair = hanging(6.0);
+            (1..=60).for_each(|frame| step(&mut hair, &surroundings(f64::from(frame))));
+            restless(&hair) / 6.0
         }
-        let restless = hair.1.batches[0].restless[0];
-        assert!(restless > 0.5 && restless < 2.0, "{restless}");
-        let mut still = hanging(6.0);
-        (0..24).for_each(|_| step(&mut still, Pose::IDENTITY));
-        let rests = still.1.batches[0].restless[0];
-        assert!((rests - 6.0).abs() < 1e-9, "{rests}");
+        let way = 0.1 / 60.0;
+        let (still, moved, bodies) = (anchor(0.0), anchor(way), ball(way));
+        let rests = left(|_| at_rest(&still));
+        let by_head = left(|frame| Surroundings {
+            roots: Roots::Head(Pose {
+                translation: DVec3::X * way * frame,
+                rotation: DQuat::IDENTITY,
+            }),
+            ..at_rest(&still)
+        });
+        let by_air = left(|_| Surroundings {
+            wind: Wind {
+                steady: DVec3::X * 0.1,
+                ..Wind::default()
+            },
+            ..at_rest(&still)
+        });
+        let by_anchor = left(|_| at_rest(&moved));
+        let by_body = left(|_| Surroundings {
+            colliders: &bodies,
+            ..at_rest(&still)
+        });
+        assert!((rests - 1.0).abs() < 1e-9, "{rests}");
+        for left in [by_head, by_air, by_anchor, by_body] {
+            assert!((0.36..0.5).contains(&left), "{left}");
+        }
     }
 }
