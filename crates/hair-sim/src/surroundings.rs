@@ -178,9 +178,10 @@ impl Surroundings<'_> {
         }
     }
 
-    /// Whether nothing in it moves but, perhaps, roots that have poses of their own: a head that moves tells by its
-    /// [`Self::fingerprint`].
-    pub(crate) fn is_calm(&self) -> bool {
+    /// Whether nothing in it moves within the step: no body, no air that changes, no anchor. Roots aren't asked: a head moves where its poses of two steps
+    /// differ.
+    #[must_use]
+    pub fn is_calm(&self) -> bool {
         let still = |c: &Collider| !c.moves();
         let is_even = self.wind_before.is_none_or(|wind| wind == self.wind);
         let steady = self.streams.iter().all(Stream::is_steady);

@@ -112,6 +112,22 @@ impl<'a> Collider<'a> {
         }
     }
 
+    /// How far its surface goes in the step as its shape changes, in m: the most that any of fourteen places around it sees it come or go.
+    pub(crate) fn changed(&self) -> f64 {
+        if self.was.is_none() {
+            return 0.0;
+        }
+        let (center, radius) = self.shape.ball();
+        // Faces and corners of a cube.
+        let faces = DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]);
+        let sign = |corner: u8, axis: u8| f64::from(corner >> axis & 1) * 2.0 - 1.0;
+        let corners = (0..8).map(|i| DVec3::new(sign(i, 0), sign(i, 1), sign(i, 2)).normalize());
+        faces
+            .chain(corners)
+            .map(|way| self.grown(center + way * radius).abs())
+            .fold(0.0, f64::max)
+    }
+
     /// Whether it moves in the step, as a whole or by its shape.
     pub(crate) fn moves(&self) -> bool {
         let deforms = |was: &Shape| was.numbers() != self.shape.numbers();

@@ -43,7 +43,7 @@ const PATIENCE: [f64; 2] = [1.5, 4.0];
 /// At this speed, in m/s, half of a time counts as moved.
 const MOVES: f64 = 0.02;
 
-/// A way of the goal, of the air or of a body, in m, that leaves 0.37 of the time for which a particle has moved by itself, half of it where it is one step's.
+/// A way of the goal, of the air or of a body's surface, in m, that leaves 0.37 of the time for which a particle has moved by itself, half of it where it is one step's.
 pub(super) const STIRS: f64 = 0.1;
 
 /// Nearer than this, in m, to where it is pulled to a particle isn't.
@@ -90,7 +90,7 @@ impl<'a> Drive<'a> {
         }
     }
 
-    /// How fast the middle of the fastest body goes, in m/s.
+    /// How fast the surface of the fastest body goes, in m/s.
     pub(crate) fn speed_of_bodies(&self) -> f64 {
         self.guards.iter().map(Guard::way).fold(0.0, f64::max) / self.dt
     }

@@ -266,6 +266,11 @@ impl Locks {
         least
     }
 
+    /// Whether some lock has been restless for so long that it parts no more in the step at hand.
+    pub(super) fn jam(&self) -> bool {
+        self.parts.contains(&0.0)
+    }
+
     /// Finds the planes of a step of `dt` seconds, in which particles go on as they do now.
     pub(super) fn find<T: Number>(
         &mut self,

@@ -23,12 +23,13 @@ const QUIET_SHARE: f64 = 2e-5;
 const QUIET_TIME: f64 = 1.0;
 
 /// What touches bodies or other hair may tremble for ever, as what friction holds slips now and then: it is quiet as well where it does so within
-/// this ball for so long, in m and s. That bounds the speed of what goes somewhere nearly as the others do.
+/// this ball for so long, in m and s. That bounds the speed of what goes somewhere nearly as the others do. What leaves a ball only after twice that time
+/// goes on being quiet: where many slip now and then they would hardly ever be quiet at once.
 const TREMBLING_WAY: f64 = 2.4e-5;
 const TREMBLING_TIME: f64 = 4.0;
 /// What has been restless for longer than the second of these, in s, is quiet within a ball of the first, in m, for as long as what trembles: where locks jam
-/// they shove each other about by some micrometres a step.
-const JAMMED_WAY: f64 = 1e-3;
+/// they shove each other about by some micrometres a step. So are all that can't pass through locks which part no more, as they follow these.
+const JAMMED_WAY: f64 = 2e-3;
 const JAMMED_TIME: f64 = 0.5;
 
 /// Which strands act on each other: the island of every lane of every batch, by a number below `count`.
@@ -177,7 +178,9 @@ pub(super) fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, 
 
     let most = most * (TREMBLING_WAY / QUIET_WAY);
     let way = is_free.pick(Lane::ZERO, most.min(Lane::splat(TREMBLING_WAY)));
+    let jam = drive.locks.is_some_and(|(_, locks)| locks.jam());
     let jams = state.restless.gt(Lane::splat(JAMMED_TIME));
+    let jams = jams.or(Mask::new([jam; LANES]));
     let way = jams.pick(Lane::splat(JAMMED_WAY), way);
     // What went farther than all across the ball has left it: what is under way costs no more than this.
     let slow = active.and(gone.lt(way * way * 4.0));
@@ -186,7 +189,9 @@ pub(super) fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, 
         stays = stays.and(farthest(&state.y, &state.trembling_at).lt(way * way));
     }
     keep(&mut state.trembling_at, &state.y, slow.and(stays.not()));
-    let time = stays.pick(state.trembling, Lane::ZERO) + dt;
+    let slipped = state.trembling.gt(Lane::splat(TREMBLING_TIME * 2.0));
+    let from = slipped.pick(Lane::splat(TREMBLING_TIME), Lane::ZERO);
+    let time = stays.pick(state.trembling, from) + dt;
     state.trembling = active.pick(slow.pick(time, Lane::ZERO), state.trembling);
 }
 

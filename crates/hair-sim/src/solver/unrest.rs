@@ -153,21 +153,24 @@ mod tests {
         }]
     }
 
-    /// A ball on the left, 1 mm away from the strand, that goes upwards by this in a step, in m.
-    fn ball(way: f64) -> [Collider<'static>; 1] {
-        let at = |y| Pose {
-            translation: DVec3::new(-0.051, y - 0.1, 0.0),
-            rotation: DQuat::IDENTITY,
-        };
-        [Collider {
-            shape: Shape::Sphere {
-                center: DVec3::ZERO,
-                radius: 0.05,
-            },
-            before: at(0.0),
-            now: at(way),
-            was: None,
-        }]
+    /// A ball on the left, 1 mm away from the strand.
+    const BALL: Collider = Collider {
+        shape: round(0.05),
+        before: BESIDE,
+        now: BESIDE,
+        was: None,
+    };
+
+    const BESIDE: Pose = Pose {
+        translation: DVec3::new(-0.051, -0.1, 0.0),
+        rotation: DQuat::IDENTITY,
+    };
+
+    const fn round(radius: f64) -> Shape<'static> {
+        Shape::Sphere {
+            center: DVec3::ZERO,
+            radius,
+        }
     }
 
     /// Steps it at 60 frames a second.
@@ -200,7 +203,7 @@ mod tests {
     /// What is tied and lies on a body counts, and nothing that is free of either.
     #[test]
     fn a_tied_strand_is_restless_where_it_rubs_on_a_body() {
-        let (ball, anchors) = (ball(0.0), anchor(0.0));
+        let (ball, anchors) = ([BALL], anchor(0.0));
         let counts = |colliders, anchors| {
             let mut hair = hanging(0.0);
             for (k, v) in hair.1.batches[0].v.iter_mut().enumerate() {
@@ -220,7 +223,7 @@ mod tests {
         assert_eq!(counts(&[], &anchors), 0.0);
     }
 
-    /// A way of 0.1 m in a second, of whatever acts, leaves less than a half of the time.
+    /// A way of 0.1 m in a second, of whatever acts, leaves less than a half of the time, also where a body turns about its middle or changes its shape.
     #[test]
     fn what_moves_makes_it_forget() {
         fn left<'a>(surroundings: impl Fn(f64) -> Surroundings<'a>) -> f64 {
@@ -229,7 +232,25 @@ mod tests {
             restless(&hair) / 6.0
         }
         let way = 0.1 / 60.0;
-        let (still, moved, bodies) = (anchor(0.0), anchor(way), ball(way));
+        let (still, moved) = (anchor(0.0), anchor(way));
+        let goes = Collider {
+            now: Pose {
+                translation: BESIDE.translation + DVec3::Y * way,
+                ..BESIDE
+            },
+            ..BALL
+        };
+        let turns = Collider {
+            now: Pose {
+                rotation: DQuat::from_rotation_y(way / 0.05),
+                ..BESIDE
+            },
+            ..BALL
+        };
+        let grows = Collider {
+            was: Some(round(0.05 - way)),
+            ..BALL
+        };
         let rests = left(|_| at_rest(&still));
         let by_head = left(|frame| Surroundings {
             roots: Roots::Head(Pose {
@@ -246,12 +267,14 @@ mod tests {
             ..at_rest(&still)
         });
         let by_anchor = left(|_| at_rest(&moved));
-        let by_body = left(|_| Surroundings {
-            colliders: &bodies,
-            ..at_rest(&still)
+        let [by_body, by_turn, by_growth] = [[goes], [turns], [grows]].map(|bodies| {
+            left(|_| Surroundings {
+                colliders: &bodies,
+                ..at_rest(&still)
+            })
         });
         assert!((rests - 1.0).abs() < 1e-9, "{rests}");
-        for left in [by_head, by_air, by_anchor, by_body] {
+        for left in [by_head, by_air, by_anchor, by_body, by_turn, by_growth] {
             assert!((0.36..0.5).contains(&left), "{left}");
         }
     }

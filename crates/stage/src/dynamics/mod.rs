@@ -348,7 +348,7 @@ impl Dynamics {
         if is_seen && is_there && time > shown + slack {
             shown = time;
             let ahead = time - self.time_of(self.done);
-            let ties = self.ties.anchors().to_vec();
+            let ties = self.ties.held();
             self.stats = self.drive((time, ahead), driver, Drives::Look)?;
             self.ties.put_back(ties);
         }
@@ -570,7 +570,8 @@ impl Dynamics {
                 self.ties.stay();
             } else {
                 self.strands.look_ahead(&scene, dt)?;
-                self.ties.aim(&*self.strands, now, &colliders);
+                let calm = (before == now && scene.is_calm()).then_some(dt);
+                self.ties.aim(&*self.strands, (now, &colliders), calm);
             }
         }
         let scene = Surroundings {

@@ -13,12 +13,23 @@ use hair_sim::{Anchor, Collider, Pose};
 const STIFFNESS: f64 = 2e5;
 /// A tie that would come less far away, m, stays where it is, so that hair can come to rest: half the radius of a hair.
 const RESTS: f64 = 2e-5;
+/// Where nothing that acts moves, a tie holds the better the longer: that grows with the time after so many seconds, up to so many times as far. Jammed hair would
+/// else slip through it by some such way now and then for minutes.
+const HOLDS: [f64; 2] = [4.0, 5.0];
 
 /// The ties of simulated hair.
 #[derive(Default)]
 pub(super) struct Ties {
     ties: Vec<Simulated>,
+    held: Held,
+}
+
+/// Where ties hold hair.
+#[derive(Clone, Default)]
+pub(super) struct Held {
     anchors: Vec<Anchor>,
+    /// For how long nothing that acts has moved.
+    calm_s: f64,
 }
 
 struct Simulated {
@@ -60,7 +71,7 @@ impl Ties {
         Self {
             // One alone has nothing to be tied to.
             ties: ties.filter(|tie| tie.members.len() > 1).collect(),
-            anchors: Vec::new(),
+            held: Held::default(),
         }
     }
 
@@ -70,29 +81,45 @@ impl Ties {
 
     /// Forgets where they were.
     pub fn restart(&mut self) {
-        self.anchors.clear();
+        self.held = Held::default();
     }
 
     /// What holds the tied points in the next step.
     pub fn anchors(&self) -> &[Anchor] {
-        &self.anchors
+        &self.held.anchors
+    }
+
+    /// How they hold hair, for [`Self::put_back`].
+    pub fn held(&self) -> Held {
+        self.held.clone()
     }
 
     /// Has them as they were before it was looked ahead.
-    pub fn put_back(&mut self, anchors: Vec<Anchor>) {
-        self.anchors = anchors;
+    pub fn put_back(&mut self, held: Held) {
+        self.held = held;
     }
 
     /// Ties stay where they are in the next step.
     pub fn stay(&mut self) {
-        for anchor in &mut self.anchors {
+        for anchor in &mut self.held.anchors {
             anchor.places[0] = anchor.places[1];
         }
     }
 
-    /// Aims at where the strands come to in a step without ties, which they were moved ahead by. The head comes to this pose.
-    pub fn aim(&mut self, ahead: &dyn Running, head: Pose, colliders: &[Collider]) {
-        let mut anchors = Vec::with_capacity(self.anchors.len());
+    /// Aims at where the strands come to in a step without ties, which they were moved ahead by. The head comes to this pose. For so many seconds, those of the
+    /// step, nothing that acts moves; None where something does.
+    pub fn aim(
+        &mut self,
+        ahead: &dyn Running,
+        (head, colliders): (Pose, &[Collider]),
+        calm: Option<f64>,
+    ) {
+        let Held {
+            anchors: last,
+            calm_s,
+        } = &mut self.held;
+        *calm_s = calm.map_or(0.0, |dt| *calm_s + dt);
+        let mut anchors = Vec::with_capacity(last.len());
         for tie in &self.ties {
             let count = tie.members.len() as f64;
             let (mut center, mut way, mut rest) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
@@ -121,18 +148,20 @@ impl Ties {
                 });
             }
         }
-        let rests = self.anchors.len() == anchors.len()
-            && self.anchors.iter().zip(&anchors).all(|(last, next)| {
-                last.places[1].distance_squared(next.places[1]) < RESTS * RESTS
+        let [after, most] = HOLDS;
+        let rests = RESTS * (*calm_s / after).clamp(1.0, most);
+        let rests = last.len() == anchors.len()
+            && (last.iter().zip(&anchors)).all(|(last, next)| {
+                last.places[1].distance_squared(next.places[1]) < rests * rests
             });
         if rests {
             self.stay();
             return;
         }
-        for (next, last) in anchors.iter_mut().zip(&self.anchors) {
+        for (next, last) in anchors.iter_mut().zip(&*last) {
             next.places[0] = last.places[1];
         }
-        self.anchors = anchors;
+        *last = anchors;
     }
 }
 

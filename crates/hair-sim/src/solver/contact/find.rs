@@ -33,6 +33,8 @@ pub(crate) struct Guard {
     /// From the world to the body's own space when the step ends.
     back: DMat3,
     origin: DVec3,
+    /// How far the fastest place of the body's surface goes in the step, in m.
+    way: f64,
     /// Whether links between particles count.
     has_links: bool,
 }
@@ -42,21 +44,25 @@ impl Guard {
         let (center, radius) = collider.shape.ball();
         let (before, now) = (collider.before, collider.now);
         let carry = DMat3::from_quat(now.rotation) * DMat3::from_quat(before.rotation).transpose();
+        let shift = now.translation - carry * before.translation;
+        let center = now.to_world(center);
+        let moved = center.distance(carry.transpose() * (center - shift));
         Self {
-            center: now.to_world(center),
+            center,
             radius,
             carry,
-            shift: now.translation - carry * before.translation,
+            shift,
+            way: moved + turn(carry) * radius + collider.changed(),
             back: DMat3::from_quat(now.rotation).transpose(),
             origin: now.translation,
             has_links: !collider.shape.is_sampled(),
         }
     }
 
-    /// How far the middle of the body goes in the step, in m.
+    /// How far the fastest place of the body's surface goes in the step, in m, as the body moves, turns about its middle and changes its shape: no less than the
+    /// truth where it keeps its shape, and about as much where it changes.
     pub(crate) fn way(&self) -> f64 {
-        let before = self.carry.transpose() * (self.center - self.shift);
-        self.center.distance(before)
+        self.way
     }
 
     /// Whether particles that go from `from` to `to` and keep `keep` may come near the body. A little more than
@@ -226,6 +232,13 @@ fn put(
         touched.push(k);
     }
     contact.set(lane, surface, of, (k, k));
+}
+
+/// How far a rotation moves what lies one metre from its axis, in m.
+fn turn(rotation: DMat3) -> f64 {
+    let change = rotation - DMat3::IDENTITY;
+    let squares = change.to_cols_array().map(|number| number * number);
+    (squares.iter().sum::<f64>() / 2.0).sqrt()
 }
 
 /// A particle's places in the world at both ends of a step, as it goes by itself; what its acceleration is isn't always known.
@@ -520,6 +533,50 @@ mod tests {
             !is_in_ball || guard.is_near_to(&shape, from, to, keep).get(0)
         });
         assert!(met > 500 && hidden > 1000, "{met} {hidden}");
+    }
+
+    #[test]
+    fn the_way_of_a_body_is_that_of_its_fastest_place() {
+        let ball = |radius| Shape::Sphere {
+            center: DVec3::X * 0.3,
+            radius,
+        };
+        let pose = |angle: f64, y: f64| Pose {
+            rotation: DQuat::from_rotation_x(angle),
+            translation: DVec3::Y * y,
+        };
+        let way = |before, was| {
+            let collider = Collider {
+                shape: ball(0.1),
+                before,
+                now: pose(0.0, 0.0),
+                was,
+            };
+            Guard::new(&collider).way()
+        };
+        let still = way(pose(0.0, 0.0), None);
+        let goes = way(pose(0.0, 0.02), None);
+        // About an axis through its middle, by a chord of the angle.
+        let turns = way(pose(0.5, 0.0), None);
+        let grows = way(pose(0.0, 0.0), Some(ball(0.07)));
+        let shifts = way(
+            pose(0.0, 0.0),
+            Some(Shape::Sphere {
+                center: DVec3::X * 0.25,
+                radius: 0.1,
+            }),
+        );
+        assert_eq!(still, 0.0);
+        for (way, truth) in [
+            (goes, 0.02),
+            (turns, 0.2 * 0.25_f64.sin()),
+            (grows, 0.03),
+            (shifts, 0.05),
+        ] {
+            assert!((way - truth).abs() < 1e-9, "{way} for {truth}");
+        }
+        let both = way(pose(0.5, 0.02), Some(ball(0.07)));
+        assert!((both - goes - turns - grows).abs() < 1e-9, "{both}");
     }
 
     /// How many of some paths meet a body that comes from a pose, and how many `is_near` hides, of which none may meet it.
