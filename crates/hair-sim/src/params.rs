@@ -147,7 +147,7 @@ pub struct Params {
     /// the distance. It goes up and over what lies between, is damped, critically where it pulls in full, and fades where hair moves against the shape, and where air
     /// blows: what swings or streams is hardly pulled. What it pulls slides: friction counts for
     /// less, and for nothing where the pull is 30 m/s^2. What can't get back and doesn't rest gives up: a particle is recalled in full for 1.5 s of motion
-    /// while its place, the air and all bodies hardly move, and no more after 4 s.
+    /// while its place, the air and all bodies hardly move, and no more after 4 s. What is recalled passes through locks.
     pub recall: f64,
     /// How far from its place a particle may lie without being recalled, in m, 1e-6 to 1e3; at twice that it is pulled in full.
     pub recall_from: f64,
@@ -156,7 +156,7 @@ pub struct Params {
     /// Coulomb's coefficient of friction, 0 to 10.
     pub friction: f64,
     /// Half the thickness in m of the lock that a strand stands for, 0 to 0.1. Locks that are apart at rest don't pass through each other,
-    /// but keep both radii between their strands; 0: they do. Where they jam, a strand that moves for 2 s while nothing else does
+    /// but keep both radii between their strands; 0: they do. So does what is recalled. Where they jam, a strand that moves for 2 s while nothing else does
     /// begins to stick to the head, and comes to rest.
     pub lock_radius: f64,
 }

@@ -22,21 +22,16 @@ struct Moved {
 }
 
 impl Moved {
-    /// At 24 frames a second, recalled as the look has it itself, or by so much.
-    fn new(look: &str, script: &Path, recall: Option<&str>) -> Self {
-        Self::at_rate("24", look, script, recall)
-    }
-
-    fn at_rate(fps: &str, look: &str, script: &Path, recall: Option<&str>) -> Self {
+    /// As the look has it itself but for some settings.
+    fn new(look: &str, script: &Path, settings: &[(&str, &str)]) -> Self {
         let mut registry = Registry::new();
         effects_builtin::register(&mut registry).unwrap();
         effects_cartoon::register(&mut registry).unwrap();
         effects_surface::register(&mut registry).unwrap();
         let text = fs::read_to_string(presets().join(format!("{look}.ron"))).unwrap();
         let mut preset = Preset::parse("look.ron", &text, &registry).unwrap();
-        preset.set("scene.fps", fps).unwrap();
-        if let Some(recall) = recall {
-            preset.set("dynamics.recall", recall).unwrap();
+        for (name, value) in settings {
+            preset.set(name, value).unwrap();
         }
         let files = Files {
             preset_folder: presets(),
@@ -87,8 +82,12 @@ fn hair_that_is_thrown_over_a_shoulder_is_recalled() {
     for (script, end_s) in [(looks_back, 3.1), turn(70), turn(-70), turn(90)] {
         // A second after the head is back, and once all is at rest: not recalled, as much as the look has itself, and by more.
         let times_s = [end_s + 1.0, end_s + 8.0];
-        let [free, recalled @ ..] = [Some("0"), None, Some("4")]
-            .map(|recall| Moved::new("long-pink", &script, recall).left_at(times_s));
+        let with = |recall: &[(&str, &str)]| {
+            let settings = [&[("scene.fps", "24")], recall].concat();
+            Moved::new("long-pink", &script, &settings).left_at(times_s)
+        };
+        let free = with(&[("dynamics.recall", "0")]);
+        let recalled = [with(&[]), with(&[("dynamics.recall", "4")])];
         println!(
             "{}: {free:.2?} head heights from where it was styled after 1 and 8 s; recalled {recalled:.2?}",
             script.display()
@@ -115,7 +114,8 @@ fn looks_that_recall() -> Vec<String> {
     looks
 }
 
-/// No look that recalls its hair leaves any of it on a shoulder for good, whatever the rate of frames.
+/// No look that recalls its hair leaves any of it on a shoulder for good, whatever the rate of frames, and also where locks keep out of each other: what is
+/// recalled passes through them.
 #[test]
 fn all_looks_that_recall_get_their_hair_back() {
     let folder = tempfile::tempdir().unwrap();
@@ -125,13 +125,13 @@ fn all_looks_that_recall_get_their_hair_back() {
     for (script, end_s) in [turn(70), turn(-70), turn(90), turn(-90), (looks_over, 2.2)] {
         let name = script.file_name().unwrap().to_str().unwrap();
         for look in &looks {
-            for fps in ["24", "60"] {
-                let mut moved = Moved::at_rate(fps, look, &script, None);
+            for (fps, locks) in [("24", "0"), ("60", "0"), ("60", "1")] {
+                let settings = [("scene.fps", fps), ("dynamics.locks", locks)];
+                let mut moved = Moved::new(look, &script, &settings);
                 let [soon, later] = moved.left_at([end_s + 1.0, end_s + 8.0]);
-                println!(
-                    "{look}, {name}, {fps} frames a second: {soon:.2} and {later:.2} head heights after 1 and 8 s"
-                );
-                assert!(later < 0.05, "{look}, {name}, {fps}: {later}");
+                let what = format!("{look}, {name}, {fps} frames a second, locks: {locks}");
+                println!("{what}: {soon:.2} and {later:.2} head heights after 1 and 8 s");
+                assert!(later < 0.05, "{what}: {later}");
             }
         }
     }
@@ -157,6 +157,11 @@ fn trembles_m(moved: &mut Moved, fps: u16, second: u16) -> f32 {
 /// What rests goes no farther than this in a frame, in m.
 const RESTS_M: f32 = 1e-4;
 
+/// Whether it sleeps in second 40: what does keeps its bits.
+fn sleeps(moved: &mut Moved) -> bool {
+    moved.points_at(39.5) == moved.points_at(40.0)
+}
+
 /// Where the head stays turned, a shoulder lies between hair and its place for good: what is recalled gives up and comes to rest there, by whatever it is
 /// pulled.
 #[test]
@@ -165,7 +170,8 @@ fn what_is_recalled_does_not_tremble() {
     for recall in ["2", "3", "4", "6", "8"] {
         for (angle, second) in [(70, 10), (-70, 16), (90, 16), (-90, 16)] {
             let script = held(folder.path(), angle);
-            let mut moved = Moved::new("long-pink", &script, Some(recall));
+            let settings = [("scene.fps", "24"), ("dynamics.recall", recall)];
+            let mut moved = Moved::new("long-pink", &script, &settings);
             let most_m = trembles_m(&mut moved, 24, second);
             println!(
                 "{angle} degrees, recall {recall}: {:.2} mm a frame in second {second}",
@@ -175,6 +181,7 @@ fn what_is_recalled_does_not_tremble() {
                 most_m < RESTS_M,
                 "{angle} degrees, recall {recall}: {most_m} m"
             );
+            assert!(sleeps(&mut moved), "{angle} degrees, recall {recall}");
         }
     }
 }
@@ -187,7 +194,7 @@ fn all_looks_that_recall_rest_on_a_head_that_stays_turned() {
         let script = held(folder.path(), angle);
         for look in looks_that_recall() {
             for fps in [24, 60] {
-                let mut moved = Moved::at_rate(&fps.to_string(), &look, &script, None);
+                let mut moved = Moved::new(&look, &script, &[("scene.fps", &fps.to_string())]);
                 let most_m = trembles_m(&mut moved, fps, 16);
                 println!(
                     "{look}, {angle} degrees, {fps} frames a second: {:.2} mm a frame in second 16",
@@ -197,6 +204,7 @@ fn all_looks_that_recall_rest_on_a_head_that_stays_turned() {
                     most_m < RESTS_M,
                     "{look}, {angle} degrees, {fps}: {most_m} m"
                 );
+                assert!(sleeps(&mut moved), "{look}, {angle} degrees, {fps}");
             }
         }
     }
@@ -208,7 +216,8 @@ fn what_streams_in_a_wind_is_hardly_recalled() {
     let gust = presets().join("motions/gust.motion.ron");
     let mut height_m = 0.0;
     let [free, recalled] = ["0", "4"].map(|recall| {
-        let mut moved = Moved::new("long-pink", &gust, Some(recall));
+        let settings = [("scene.fps", "24"), ("dynamics.recall", recall)];
+        let mut moved = Moved::new("long-pink", &gust, &settings);
         height_m = moved.scene.head().height_m;
         [0.0, 1.0, 1.3, 2.0].map(|time_s| moved.points_at(time_s))
     });

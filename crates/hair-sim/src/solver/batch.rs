@@ -196,8 +196,12 @@ pub(crate) struct BatchState {
     pub goal: Vec<Vec3>,
     /// For how long particles have moved by themselves, in s: see [`super::drive`]. Empty where nothing is recalled.
     pub alone: Vec<Lane>,
+    /// How much of what particles could be recalled by they are, in the last step, 0 to 1. Empty where nothing is recalled.
+    pub recalled: Vec<Lane>,
     /// For how long strands have moved by themselves while others pressed on them, or a body on those that are tied, in s: see [`super::unrest`].
     pub restless: Lane,
+    /// For how long neither roots nor anything that acts on strands have moved, in s.
+    pub calm: Lane,
     /// Links to other strands that hold no more: one for every pair of the batch.
     pub broken: Vec<[bool; LANES]>,
     /// What pulled on the strands in the last step if nothing drove them in it (in m/s^2), and the most energy that they may
@@ -236,6 +240,8 @@ impl BatchState {
             creep: vec![Lane::splat(CREEP); batch.planes],
             goal: Vec::new(),
             alone: Vec::new(),
+            recalled: Vec::new(),
+            calm: Lane::ZERO,
             restless: Lane::ZERO,
             broken: Vec::new(),
             pull: NO_PULL,
@@ -278,7 +284,9 @@ impl BatchState {
             && (self.lifts.is_empty() || self.lifts.len() == count)
             && planes.iter().all(|list| list.len() == batch.planes)
             && (self.goal.is_empty() || self.goal.len() == count)
-            && (self.alone.is_empty() || self.alone.len() == count)
+            && [&self.alone, &self.recalled]
+                .iter()
+                .all(|list| list.is_empty() || list.len() == count)
     }
 
     /// The strands that are set aside.

@@ -336,6 +336,8 @@ struct Recall<T> {
     steepness: T,
     /// The share of its friction that is left to the particle.
     grip: T,
+    /// How much of what it could be pulled by in all it is pulled by, 0 to 1.
+    share: T,
 }
 
 impl<T: Number> Recall<T> {
@@ -371,6 +373,7 @@ impl<T: Number> Recall<T> {
             lift,
             steepness: recalls(T::choose(part, most / from, zero)),
             grip: one - recalls(T::choose(part, share, one) * slides * strength),
+            share: recalls(T::choose(part, share, one) * strength),
         }
     }
 }
@@ -391,6 +394,7 @@ fn pull_to_goals<T: Number, const RECALLS: bool>(
     }
     if RECALLS && state.alone.is_empty() {
         state.alone.resize(batch.count(), Lane::ZERO);
+        state.recalled.resize(batch.count(), Lane::ZERO);
     }
     let pose = |strand: Option<usize>| {
         strand.map_or(Pose::IDENTITY, |strand| drive.surroundings.roots.of(strand))
@@ -476,6 +480,7 @@ fn pull_to_goals<T: Number, const RECALLS: bool>(
                 drive.dt,
             );
             loads.grips[k] = recall.grip.store();
+            state.recalled[k] = recall.share.store();
             // What comes nearer within the step is pulled by less already there: a pull that lags behind makes tips tremble.
             let (here, moved) = (state.y[k].load::<T>(), now - before);
             let of = |share: f64| (here + moved.scale(T::splat(share))).scale(recall.steepness);

@@ -5,7 +5,8 @@
 //! other are found by boxes around what they sweep. Where two of their links would come nearer than both radii, a plane half way between where
 //! their own motion takes them keeps both on their sides ([`Contact`]), as a body's surface would: both know it beforehand, so strands stay
 //! independent within a step. Pieces that are nearer than that at rest are left alone: a style's locks lie in each other, and
-//! [`Mutual`](crate::Mutual) holds them. Those that are a little farther apart keep a share of that distance.
+//! [`Mutual`](crate::Mutual) holds them. Those that are a little farther apart keep a share of that distance. What is recalled passes through others, which would
+//! hold it on a shoulder.
 //!
 //! No strand's answer hangs on the order in which others are found: of all planes the deepest holds.
 //!
@@ -52,6 +53,9 @@ const END: f64 = 0.75;
 
 /// Locks part by less once one of both has been restless for the first of these times, in s, and no more after the second: see [`super::unrest`].
 pub(super) const PATIENCE: [f64; 2] = [2.0, 4.0];
+
+/// What is recalled by more than this share of what it could be passes through other locks, which would hold it where it lies.
+const RECALLED: f64 = 0.1;
 
 /// Tasks that look for planes in a step.
 const TASKS: usize = 8;
@@ -145,6 +149,8 @@ pub(super) struct Locks {
     keeps: Keeps,
     /// How much of the way each piece parts by in the step at hand that it would if it weren't restless, 0 to 1.
     parts: Vec<f64>,
+    /// Whether each piece passes through others in the step at hand, as it is recalled.
+    passes: Vec<bool>,
     /// The first particle of every batch in the list of all: particle by particle, lane by lane.
     particles: Vec<usize>,
     /// Of the step at hand.
@@ -204,6 +210,7 @@ impl Locks {
         let mut locks = Self {
             keeps: Keeps::new(&[]),
             parts: vec![1.0; pieces.len()],
+            passes: vec![false; pieces.len()],
             dt: 0.0,
             ways: Ways::new(batches, &pieces),
             pairs: Pairs::new(strands),
@@ -266,11 +273,6 @@ impl Locks {
         least
     }
 
-    /// Whether some lock has been restless for so long that it parts no more in the step at hand.
-    pub(super) fn jam(&self) -> bool {
-        self.parts.contains(&0.0)
-    }
-
     /// Finds the planes of a step of `dt` seconds, in which particles go on as they do now.
     pub(super) fn find<T: Number>(
         &mut self,
@@ -284,6 +286,11 @@ impl Locks {
             let [from, until] = PATIENCE;
             let restless = states[piece.batch].restless[piece.lane];
             *parts = ((until - restless) / (until - from)).clamp(0.0, 1.0);
+        }
+        for (passes, piece) in self.passes.iter_mut().zip(&self.pieces) {
+            let recalled = &states[piece.batch].recalled;
+            let own = recalled.iter().skip(piece.first).take(piece.links);
+            *passes = own.into_iter().any(|share| share[piece.lane] > RECALLED);
         }
         self.ways
             .follow::<T>(batches, states, (surroundings, dt), (0.0, 0.0));
@@ -398,6 +405,9 @@ impl Locks {
                     farther,
                 } in &*near
                 {
+                    if self.passes[own] || self.passes[other] {
+                        continue;
+                    }
                     let [sweep, its] = [&self.ways.sweeps[own], &self.ways.sweeps[other]];
                     let found = sweep.near(its, (more, slow, farther));
                     if found != 0 {

@@ -23,12 +23,13 @@ const QUIET_SHARE: f64 = 2e-5;
 const QUIET_TIME: f64 = 1.0;
 
 /// What touches bodies or other hair may tremble for ever, as what friction holds slips now and then: it is quiet as well where it does so within
-/// this ball for so long, in m and s. That bounds the speed of what goes somewhere nearly as the others do. What leaves a ball only after twice that time
-/// goes on being quiet: where many slip now and then they would hardly ever be quiet at once.
+/// this ball for so long, in m and s. That bounds the speed of what goes somewhere nearly as the others do. The ball grows with the square of the time for which
+/// nothing that acts has moved, from this time on and up to that of what jams: what still creeps after half a minute, a pixel in some seconds, may do so
+/// for minutes. What leaves a ball only after twice that time goes on being quiet: where many slip now and then they would hardly ever be quiet at once.
 const TREMBLING_WAY: f64 = 2.4e-5;
 const TREMBLING_TIME: f64 = 4.0;
 /// What has been restless for longer than the second of these, in s, is quiet within a ball of the first, in m, for as long as what trembles: where locks jam
-/// they shove each other about by some micrometres a step. So are all that can't pass through locks which part no more, as they follow these.
+/// they shove each other about by some micrometres a step.
 const JAMMED_WAY: f64 = 2e-3;
 const JAMMED_TIME: f64 = 0.5;
 
@@ -157,11 +158,16 @@ pub(super) fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, 
     if !drive.calm {
         state.quiet = active.pick(Lane::ZERO, state.quiet);
         state.trembling = active.pick(Lane::ZERO, state.trembling);
+        state.calm = active.pick(Lane::ZERO, state.calm);
         return;
     }
     let mut press = Lane::ZERO;
     for of_plane in &state.press {
         press = press.max(*of_plane);
+    }
+    // What is recalled is pulled to where it may not get.
+    for share in &state.recalled {
+        press = press.max(*share);
     }
     let is_free = press
         .gt(Lane::ZERO)
@@ -176,11 +182,14 @@ pub(super) fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, 
     let quiet = stays.pick(state.quiet + dt, Lane::ZERO);
     state.quiet = active.pick(quiet, state.quiet);
 
+    let moves = state.root_velocity.length_squared().gt(Lane::ZERO);
+    let calm = moves.pick(Lane::ZERO, state.calm + dt);
+    state.calm = active.pick(calm, state.calm);
+    let held = (state.calm * (1.0 / TREMBLING_TIME)).max(Lane::ONE);
     let most = most * (TREMBLING_WAY / QUIET_WAY);
-    let way = is_free.pick(Lane::ZERO, most.min(Lane::splat(TREMBLING_WAY)));
-    let jam = drive.locks.is_some_and(|(_, locks)| locks.jam());
+    let way = most.min(Lane::splat(TREMBLING_WAY)) * held * held;
+    let way = is_free.pick(Lane::ZERO, way.min(Lane::splat(JAMMED_WAY)));
     let jams = state.restless.gt(Lane::splat(JAMMED_TIME));
-    let jams = jams.or(Mask::new([jam; LANES]));
     let way = jams.pick(Lane::splat(JAMMED_WAY), way);
     // What went farther than all across the ball has left it: what is under way costs no more than this.
     let slow = active.and(gone.lt(way * way * 4.0));

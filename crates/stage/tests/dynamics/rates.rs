@@ -181,7 +181,7 @@ fn hair_that_has_come_to_rest_sleeps() {
             stats.strands == 0 && stats.asleep > 0
         });
         println!("{look}: asleep after {asleep:?} s");
-        if asleep.is_none_or(|second| second >= 30) {
+        if asleep.is_none_or(|second| second > 25) {
             awake.push(look);
         }
     }
