@@ -287,10 +287,12 @@ impl Locks {
             let restless = states[piece.batch].restless[piece.lane];
             *parts = ((until - restless) / (until - from)).clamp(0.0, 1.0);
         }
-        for (passes, piece) in self.passes.iter_mut().zip(&self.pieces) {
-            let recalled = &states[piece.batch].recalled;
-            let own = recalled.iter().skip(piece.first).take(piece.links);
-            *passes = own.into_iter().any(|share| share[piece.lane] > RECALLED);
+        if states.iter().any(|state| !state.recalled.is_empty()) {
+            for (passes, piece) in self.passes.iter_mut().zip(&self.pieces) {
+                let recalled = states[piece.batch].recalled.iter();
+                let mut own = recalled.skip(piece.first).take(piece.links);
+                *passes = own.any(|share| share[piece.lane] > RECALLED);
+            }
         }
         self.ways
             .follow::<T>(batches, states, (surroundings, dt), (0.0, 0.0));
