@@ -180,10 +180,17 @@ fn may_hold_sample(low: Vec2, high: Vec2, stacks: &[Stack]) -> bool {
     stacks.iter().any(|stack| {
         (0..stack.samples).any(|k| {
             let sample = Vec2::new(stack.x[k], stack.y[k]);
-            let first = (low - MARGIN - sample).ceil();
-            first.cmple(high + MARGIN - sample).all()
+            let (low, high) = (low - MARGIN - sample, high + MARGIN - sample);
+            up(low.x) <= high.x && up(low.y) <= high.y
         })
     })
+}
+
+/// The next whole number, up to some thousands of millions: what is not compiled for newer instructions has to call a function to round up.
+#[inline(always)]
+fn up(x: f32) -> f32 {
+    let whole = x as i32 as f32;
+    if whole < x { whole + 1.0 } else { whole }
 }
 
 /// Larger boxes are taken to hold a sample, square pixels.
