@@ -137,6 +137,19 @@ fn all_looks_that_recall_get_their_hair_back() {
     }
 }
 
+/// What passed through locks on the way to a later moment changes nothing of an earlier one.
+#[test]
+fn a_recalled_moment_is_the_same_however_it_is_reached() {
+    let folder = tempfile::tempdir().unwrap();
+    let script = there_and_back(folder.path(), 90);
+    let settings = [("scene.fps", "60"), ("dynamics.locks", "1")];
+    let moved = || Moved::new("long-pink", &script, &settings);
+    let (mut straight, mut back) = (moved(), moved());
+    let later = back.points_at(1.4);
+    assert!(back.points_at(0.6) == straight.points_at(0.6));
+    assert!(later == straight.points_at(1.4));
+}
+
 /// A script in `folder` by which the head turns so far, in degrees, until 0.5 s, and stays there.
 fn held(folder: &Path, angle: i32) -> PathBuf {
     let path = folder.join(format!("held{angle}.motion.ron"));

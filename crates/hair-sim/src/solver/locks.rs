@@ -287,6 +287,7 @@ impl Locks {
             let restless = states[piece.batch].restless[piece.lane];
             *parts = ((until - restless) / (until - from)).clamp(0.0, 1.0);
         }
+        self.passes.fill(false);
         if states.iter().any(|state| !state.recalled.is_empty()) {
             for (passes, piece) in self.passes.iter_mut().zip(&self.pieces) {
                 let recalled = states[piece.batch].recalled.iter();

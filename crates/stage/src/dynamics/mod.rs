@@ -570,7 +570,8 @@ impl Dynamics {
                 self.ties.stay();
             } else {
                 self.strands.look_ahead(&scene, dt)?;
-                let calm = (before == now && scene.is_calm()).then_some(dt);
+                let calm = before == now && scene.is_calm() && scene.goal.is_none();
+                let calm = calm.then_some(dt);
                 self.ties.aim(&*self.strands, (now, &colliders), calm);
             }
         }
