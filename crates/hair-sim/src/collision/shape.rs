@@ -425,4 +425,41 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn a_form_changes_by_as_much_as_its_surface_moves() {
+        let [small, large] = [0.1, 0.13].map(|side: f32| {
+            let corner = |i: u32| Vec3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2) as f32);
+            let points: Vec<Vec3> = (0..8).map(|i| (corner(i) * 2.0 - 1.0) * side).collect();
+            let sides = [
+                [0, 4, 6, 2],
+                [1, 3, 7, 5],
+                [0, 1, 5, 4],
+                [2, 6, 7, 3],
+                [0, 2, 3, 1],
+                [4, 5, 7, 6],
+            ];
+            let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
+            let triangles: Vec<[u32; 3]> = sides.into_iter().flat_map(halves).collect();
+            SignedDistance::new(&points, &triangles, 0.01).expect("a cube")
+        });
+        let changed = |before, share| {
+            let form = |share| Shape::Form {
+                from: &small,
+                to: &large,
+                share,
+                size: 1.0,
+            };
+            let collider = Collider {
+                was: Some(form(before)),
+                ..Collider::fixed(form(share), Pose::IDENTITY)
+            };
+            collider.changed()
+        };
+        assert_eq!(changed(0.4, 0.4), 0.0);
+        // Its sides go 3 cm, its corners 5.2.
+        let whole = changed(0.0, 1.0);
+        assert!((0.03..0.055).contains(&whole), "{whole}");
+        assert!((changed(0.7, 0.2) - whole / 2.0).abs() < 1e-9);
+    }
 }

@@ -43,7 +43,8 @@ const PATIENCE: [f64; 2] = [1.5, 4.0];
 /// At this speed, in m/s, half of a time counts as moved.
 const MOVES: f64 = 0.02;
 
-/// A way of the goal, of the air or of a body's surface, in m, that leaves 0.37 of the time for which a particle has moved by itself, half of it where it is one step's.
+/// A way of the goal, of the air or of a body's surface, in m, that leaves 0.37 of the time for which a particle has moved by itself, half of it where it is one
+/// step's.
 pub(super) const STIRS: f64 = 0.1;
 
 /// Nearer than this, in m, to where it is pulled to a particle isn't.

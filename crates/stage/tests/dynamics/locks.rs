@@ -2,15 +2,18 @@
 
 use super::*;
 
+/// A file of this text in a folder.
+fn written(folder: &Path, name: &str, text: &str) -> PathBuf {
+    let path = folder.join(name);
+    fs::write(&path, text).unwrap();
+    path
+}
+
 /// Locks of looks that keep out of each other when a head turns fast, at 60 frames a second: it moves them, and costs few iterations more.
 #[test]
 fn locks_keep_out_of_each_other_in_looks() {
     let folder = tempfile::tempdir().unwrap();
-    let file = |name: &str, text: &str| {
-        let path = folder.path().join(name);
-        fs::write(&path, text).unwrap();
-        path
-    };
+    let file = |name, text| written(folder.path(), name, text);
     let turn = file("turn.motion.ron", TURN);
     let ponytail = file(
         "ponytail.style.ron",
@@ -113,11 +116,7 @@ fn locks_that_jam_come_to_rest() {
 /// Hair of a style that keeps out of each other, on a head that is shaken for two seconds at 60 frames a second.
 fn shaken(style: &str, feel: &str) -> Stage {
     let folder = tempfile::tempdir().unwrap();
-    let file = |name: &str, text: &str| {
-        let path = folder.path().join(name);
-        fs::write(&path, text).unwrap();
-        path
-    };
+    let file = |name, text| written(folder.path(), name, text);
     let hair = file("a.style.ron", style);
     let shake = file(
         "shake.motion.ron",
