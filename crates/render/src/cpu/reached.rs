@@ -4,7 +4,7 @@
 //! nearest disc, and its colour that of the nearest point of the axis. So those that were the nearest in the last cell come first, and others
 //! are worked out only where they may be nearer yet: the same bits, as they would have changed nothing.
 
-use super::stroke::{Depths, Nearest, Placed, Ratios};
+use super::stroke::{Depths, Nearest, Placed, Ratios, slack};
 use super::tile::{Cell, LaneMask, columns};
 
 /// So many segments are all worked out: to choose among them would take longer.
@@ -15,6 +15,8 @@ const FEW: usize = 4;
 pub(super) struct Reached {
     /// Their places among the stroke's segments, and the columns.
     segments: Vec<(usize, u32)>,
+    /// As [`Nearest::may_gain`] asks for.
+    slack: f32,
     /// Of the last cell: the place of a segment near the eye, and of one near the axis.
     to_eye: usize,
     to_axis: usize,
@@ -30,6 +32,9 @@ impl Reached {
             if reached != 0 {
                 self.segments.push((i, reached));
             }
+        }
+        if self.segments.len() > FEW {
+            self.slack = slack(self.segments.len());
         }
         self.to_eye = self.to_eye.min(placed.len() - 1);
         self.to_axis = self.to_axis.min(placed.len() - 1);
@@ -69,7 +74,7 @@ impl Reached {
                 depths.offer(segment, &at);
                 self.to_eye = place;
             }
-            if nearest.may_gain(&known, segment, &at, samples) {
+            if nearest.may_gain(&known, segment, &at, samples, self.slack) {
                 nearest.offer(segment, &at);
                 self.to_axis = place;
             }
@@ -100,7 +105,7 @@ impl Reached {
             }
             let segment = &placed[place];
             let at = segment.at(cell);
-            if nearest.may_gain(&known, segment, &at, samples) {
+            if nearest.may_gain(&known, segment, &at, samples, self.slack) {
                 nearest.offer(segment, &at);
                 self.to_axis = place;
             }

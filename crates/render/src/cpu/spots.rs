@@ -1,6 +1,6 @@
 //! Samples that lie anywhere in a tile, as many at a time as a cell has: of most cells few are asked for where a stroke lies.
 
-use super::stroke::{InFrame, Nearest, Placed, Places, Ratios};
+use super::stroke::{InFrame, Nearest, Placed, Places, Ratios, slack};
 use super::tile::{CELL_WIDTH, LANES, LaneMask, Lanes, Mask, STACK, Samples, any, select};
 
 /// Some samples of a tile.
@@ -58,6 +58,7 @@ impl Spots {
     #[inline(always)]
     pub(super) fn places(&self, placed: &[Placed], to_axis: &mut usize) -> Places<false> {
         let (mut places, mut known) = (Places::new(), Ratios::new());
+        let slack = slack(placed.len());
         let first = &placed[*to_axis];
         known.offer(first, &self.in_frame(first, self.of_mask(&first.covered)));
         for (place, segment) in placed.iter().enumerate() {
@@ -66,7 +67,7 @@ impl Spots {
                 continue;
             }
             let at = self.in_frame(segment, covered);
-            if places.may_gain(&known, segment, &at, &[u32::MAX; LANES]) {
+            if places.may_gain(&known, segment, &at, &[u32::MAX; LANES], slack) {
                 places.offer(segment, &at);
                 *to_axis = place;
             }

@@ -221,11 +221,18 @@ pub(super) trait Nearest {
     /// The least ratios so far; infinite where no segment covers the sample.
     fn ratios(&self) -> &Lanes;
     /// Whether a segment may make a difference at some samples, where those `known` are offered too: at a distance `d` from its axis a ratio is at
-    /// least (d / radius)^2.
+    /// least (d / radius)^2. `slack` is that of the segments ([`slack`]).
     #[inline(always)]
-    fn may_gain(&self, known: &Ratios, segment: &Placed, at: &InFrame, samples: &LaneMask) -> bool {
+    fn may_gain(
+        &self,
+        known: &Ratios,
+        segment: &Placed,
+        at: &InFrame,
+        samples: &LaneMask,
+        slack: f32,
+    ) -> bool {
         let (length, radius) = (segment.shape.sweep.length(), segment.shape.sweep.radius());
-        let most = BESIDE * radius * radius;
+        let most = slack * radius * radius;
         let mut gains = at.covered;
         for k in 0..LANES {
             let beyond = greater(greater(-at.x[k], at.x[k] - length), 0.0);
@@ -237,9 +244,14 @@ pub(super) trait Nearest {
     }
 }
 
-/// Ratios that are larger by less than this factor may still decide on which side of a stroke a sample lies
-/// ([`Places`]): each of a hundred segments may have kept the one before it from doing so by a thousandth.
-const BESIDE: f32 = 1.1;
+/// Ratios that are larger by less than this factor may still make a difference, where so many segments are offered: each may have kept the one
+/// before it from deciding on which side of a stroke a sample lies ([`NEARER`]). And a lesser ratio may have been rounded up.
+#[inline(always)]
+pub(super) fn slack(segments: usize) -> f32 {
+    const ROUNDED: f32 = 1.02;
+    const MOST: usize = 10_000; // still a number
+    ROUNDED * (1.0 / NEARER).powi(segments.min(MOST) as i32)
+}
 
 /// Nothing is asked.
 pub(super) struct Unasked;
@@ -254,7 +266,7 @@ impl Nearest for Unasked {
     }
 
     #[inline(always)]
-    fn may_gain(&self, _: &Ratios, _: &Placed, _: &InFrame, _: &LaneMask) -> bool {
+    fn may_gain(&self, _: &Ratios, _: &Placed, _: &InFrame, _: &LaneMask, _: f32) -> bool {
         false
     }
 }
