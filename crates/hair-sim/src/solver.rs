@@ -10,7 +10,7 @@
 //! - `neighbours`; `locks`: strands that meet; `drive`: what drives a batch in a step
 //! - `unrest`: strands that jam; `sleep`: which strands cost nothing
 //! - `tr_bdf2`, the integrator; `safe`, the one behind it; `energy`, which keeps them from making any; `finish`
-//! - `step`: all of a batch's step
+//! - `step`: all of a batch's step; `groups`: all batches' steps, beside each other
 //!
 //! What works on all particles is compiled for several instruction sets, see [`crate::lanes`]: a function for every phase of a
 //! step, by [`Number::run`](crate::lanes::Number::run).
@@ -23,6 +23,9 @@ mod energy;
 mod finish;
 #[cfg(test)]
 mod free_flight;
+mod groups;
+#[cfg(test)]
+mod instructions_agree;
 mod link;
 mod load;
 mod locks;
@@ -59,6 +62,7 @@ use batch::{Batch, BatchState};
 use contact::find::{Guard, settle_in};
 use drive::{Anchored, Drive, Others, roots, whole_poses};
 use energy::whole_energy;
+use groups::step_all;
 use locks::Locks;
 use rods::Rods;
 use scratch::Scratch;
@@ -573,39 +577,6 @@ impl Solver {
     }
 }
 
-/// Steps batches in groups, each by a task of its own and in its own scratch. The first of them is number `first` of all, and `group`
-/// of them make a group.
-fn step_all<F>(
-    batches: &[Batch],
-    states: &mut [BatchState],
-    scratch: &mut [Scratch],
-    (first, group): (usize, usize),
-    step: &F,
-) -> Stats
-where
-    F: Fn(usize, &Batch, &mut BatchState, &mut Scratch) -> Stats + Sync,
-{
-    match scratch {
-        [] => Stats::default(),
-        [scratch] => (batches.iter().zip(states).enumerate())
-            .map(|(i, (batch, state))| step(first + i, batch, state, scratch))
-            .fold(Stats::default(), Stats::plus),
-        _ => {
-            let half = scratch.len() / 2;
-            let middle = half * group;
-            let (batches, later_batches) = batches.split_at(middle);
-            let (states, later_states) = states.split_at_mut(middle);
-            let (scratch, later_scratch) = scratch.split_at_mut(half);
-            let later = (first + middle, group);
-            let (sum, more) = join(
-                || step_all(batches, states, scratch, (first, group), step),
-                || step_all(later_batches, later_states, later_scratch, later, step),
-            );
-            sum.plus(more)
-        }
-    }
-}
-
 /// A hash of the places of strands in batches (FNV-1a): straight strands stand apart, and what is straight is said by the parameters
 /// as well as by the strands.
 fn layout(places: &[(usize, usize)]) -> u64 {
@@ -629,122 +600,4 @@ fn accelerations(batch: &Batch, surroundings: &Surroundings) -> Option<[LaneVec3
         roots
     };
     Some(ends.map(of_roots))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{GRAVITY, Material, Natural, Pose, Profile, Shape, Wind};
-    use std::time::{Duration, Instant};
-
-    /// 72 strands on a ball, of different lengths, so that batches mix them.
-    fn style() -> Strands {
-        let mut rest = Strands::new();
-        for s in 0..72_u32 {
-            let turn = s as f32 * 0.6;
-            let links = 18 + s % 3;
-            let points: Vec<Vec3> = (0..=links)
-                .map(|i| {
-                    let u = i as f32 / links as f32;
-                    Vec3::new(turn.cos() + u, 0.3 * u * u, turn.sin() + (3.0 * u).sin()) * 0.1
-                })
-                .collect();
-            rest.push(s, &points, None).unwrap();
-        }
-        rest
-    }
-
-    /// The state after 96 steps in which a head shakes; with everything that can act on strands, or with wind alone. And the time of
-    /// the shortest step.
-    fn shaken(params: &Params, everything: bool, instructions: Instructions) -> (State, Duration) {
-        let rest = style();
-        let goal = rest.points().to_vec();
-        let (mut solver, mut state) = Solver::new(&rest, params).unwrap();
-        solver.instructions = instructions;
-        if everything {
-            let mutual = Mutual {
-                reach: 0.05,
-                ..Mutual::default()
-            };
-            solver.interact(&mut state, &mutual).unwrap();
-        }
-        let head = |step: i32| Pose {
-            // At times faster than the integrator can follow: the safe one is needed.
-            rotation: DQuat::from_rotation_x(if everything {
-                f64::from(step % 24)
-            } else {
-                0.0
-            }),
-            translation: DVec3::ZERO,
-        };
-        let (mut shortest, mut sum) = (Duration::MAX, Stats::default());
-        for i in 0..96 {
-            let colliders = [Collider {
-                shape: Shape::Sphere {
-                    center: DVec3::ZERO,
-                    radius: 0.1,
-                },
-                before: head(i),
-                now: head(i + 1),
-                was: None,
-            }];
-            let surroundings = Surroundings {
-                roots: Roots::Head(head(i + 1)),
-                gravity: DVec3::new(f64::from(i % 5), -GRAVITY, 0.0),
-                wind: Wind {
-                    gust: 3.0,
-                    ..Wind::default()
-                },
-                colliders: if everything { &colliders } else { &[] },
-                goal: everything.then_some(&goal[..]),
-                ..Surroundings::default()
-            };
-            let start = Instant::now();
-            let stats = solver.step(&mut state, &surroundings, 1.0 / 60.0).unwrap();
-            shortest = shortest.min(start.elapsed());
-            sum = sum.plus(stats);
-        }
-        let acted = [sum.contacts, sum.links, sum.repulsions, sum.fallbacks].map(|n| n > 0);
-        assert!(!everything || acted == [true; 4], "{sum:?}");
-        (state, shortest)
-    }
-
-    /// Prints what a step takes in each as well.
-    #[test]
-    #[allow(
-        clippy::print_stdout,
-        reason = "it shows what vector instructions are worth"
-    )]
-    fn every_instruction_set_gives_the_same_bits() {
-        let curled = Params {
-            material: Material::from_gamma(30.0, 0.2),
-            natural: Natural::Styled,
-            ..Params::default()
-        };
-        let straight = Params {
-            natural: Natural::Curl {
-                curvature: 0.0,
-                torsion: 0.0,
-            },
-            ..curled
-        };
-        for (name, params) in [("curled", curled), ("straight", straight)] {
-            for everything in [false, true] {
-                let params = Params {
-                    goal: Profile::constant(if everything { 20.0 } else { 0.0 }),
-                    ..params
-                };
-                let sets = [Instructions::Compiled, Instructions::best()];
-                let states = sets.map(|instructions| {
-                    let (state, shortest) = shaken(&params, everything, instructions);
-                    let what = if everything { "everything" } else { "wind" };
-                    println!(
-                        "{instructions:?}: {shortest:?} for a step of 72 {name} strands of 20 points in {what}"
-                    );
-                    state
-                });
-                assert!(states[0] == states[1], "{name}, everything: {everything}");
-            }
-        }
-    }
 }
