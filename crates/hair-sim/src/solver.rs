@@ -411,6 +411,7 @@ impl Solver {
                 base,
                 accelerations: accelerations(batch, surroundings),
                 calm,
+                are_roots_still: sleepers.are_roots_still,
                 asleep: sleepers.of[index],
                 others: interaction.map(|all| Others {
                     mutual: &all.mutual,

@@ -200,7 +200,7 @@ pub(crate) struct BatchState {
     pub recalled: Vec<Lane>,
     /// For how long strands have moved by themselves while others pressed on them, or a body on those that are tied, in s: see [`super::unrest`].
     pub restless: Lane,
-    /// For how long neither roots nor anything that acts on strands have moved, in s.
+    /// For how long neither any roots nor anything that acts on strands have moved, in s.
     pub calm: Lane,
     /// Links to other strands that hold no more: one for every pair of the batch.
     pub broken: Vec<[bool; LANES]>,

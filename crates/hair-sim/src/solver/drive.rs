@@ -69,6 +69,8 @@ pub(crate) struct Drive<'a> {
     pub accelerations: Option<[Vec3; 2]>,
     /// Whether what acts is the same as in the last step, and does not move.
     pub calm: bool,
+    /// Whether no root moves either.
+    pub are_roots_still: bool,
     /// The strands that sleep.
     pub asleep: Mask,
     /// The other strands, where they act on each other.

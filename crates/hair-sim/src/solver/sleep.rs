@@ -82,6 +82,8 @@ pub(super) struct Sleepers {
     pub(super) of: Vec<Mask>,
     /// The islands in which a strand is awake.
     awake: Vec<bool>,
+    /// Whether no root moves, where what acts doesn't.
+    pub(super) are_roots_still: bool,
 }
 
 impl Sleepers {
@@ -95,15 +97,18 @@ impl Sleepers {
         islands: Option<&Islands>,
     ) {
         self.of.clear();
+        self.are_roots_still = true;
         if !calm {
             self.of.resize(batches.len(), Mask::NONE);
             return;
         }
         let places = batches.iter().zip(states);
         let Some(islands) = islands else {
-            self.of.extend(
-                places.map(|(batch, state)| state.quiet().and(rest(batch, state, surroundings))),
-            );
+            for (batch, state) in places {
+                let rests = rest(batch, state, surroundings);
+                self.are_roots_still &= rests == batch.used;
+                self.of.push(state.quiet().and(rests));
+            }
             return;
         };
         self.awake.clear();
@@ -111,7 +116,9 @@ impl Sleepers {
         for ((batch, state), islands) in places.clone().zip(&islands.of) {
             // What is set aside is at rest where its root is.
             let quiet = state.quiet().or(state.aside());
-            let wakes = (quiet.and(rest(batch, state, surroundings)).not()).and(batch.used);
+            let rests = rest(batch, state, surroundings);
+            self.are_roots_still &= rests == batch.used;
+            let wakes = (quiet.and(rests).not()).and(batch.used);
             for lane in 0..LANES {
                 self.awake[islands[lane] as usize] |= wakes.get(lane);
             }
@@ -152,7 +159,7 @@ fn rest(batch: &Batch, state: &BatchState, surroundings: &Surroundings) -> Mask 
     moves.lt(Lane::splat(1e-26)).or(lost).and(batch.used)
 }
 
-/// Measures for how long the strands of `active` have hardly moved.
+/// Measures for how long the strands of `active` have hardly moved while their roots didn't.
 #[inline(always)]
 pub(super) fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, active: Mask) {
     if !drive.calm {
@@ -179,11 +186,12 @@ pub(super) fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, 
     let gone = farthest(&state.y, &state.quiet_at);
     let stays = gone.lt(way * way);
     keep(&mut state.quiet_at, &state.y, active.and(stays.not()));
-    let quiet = stays.pick(state.quiet + dt, Lane::ZERO);
+    let is_still = state.root_velocity.length_squared().gt(Lane::ZERO).not();
+    let quiet = stays.and(is_still).pick(state.quiet + dt, Lane::ZERO);
     state.quiet = active.pick(quiet, state.quiet);
 
-    let moves = state.root_velocity.length_squared().gt(Lane::ZERO);
-    let calm = moves.pick(Lane::ZERO, state.calm + dt);
+    let is_calm = Mask::new([drive.are_roots_still; LANES]);
+    let calm = is_calm.pick(state.calm + dt, Lane::ZERO);
     state.calm = active.pick(calm, state.calm);
     let held = (state.calm * (1.0 / TREMBLING_TIME)).max(Lane::ONE);
     let most = most * (TREMBLING_WAY / QUIET_WAY);
@@ -201,7 +209,8 @@ pub(super) fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, 
     let slipped = state.trembling.gt(Lane::splat(TREMBLING_TIME * 2.0));
     let from = slipped.pick(Lane::splat(TREMBLING_TIME), Lane::ZERO);
     let time = stays.pick(state.trembling, from) + dt;
-    state.trembling = active.pick(slow.pick(time, Lane::ZERO), state.trembling);
+    let time = slow.and(is_still).pick(time, Lane::ZERO);
+    state.trembling = active.pick(time, state.trembling);
 }
 
 /// The square of how far the particle of every strand that went farthest is from where it was, in m^2.

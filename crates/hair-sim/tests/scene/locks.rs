@@ -245,3 +245,27 @@ fn a_heap_of_locks_sleeps() {
     assert!(asleep.is_some_and(|step| step < 20 * 60), "{asleep:?}");
     assert!(fastest < 0.03, "{fastest}");
 }
+
+/// Roots that creep, each by a pose of its own, keep awake what sleeps or has hardly moved for long, and what leans on it; then all sleep again.
+#[test]
+fn roots_that_creep_keep_locks_awake() {
+    const DT: f64 = 1.0 / 60.0;
+    const SPEED: f64 = 0.001;
+    let (mut solver, mut state, scene) = leaning(3);
+    let mut step = |state: &mut State, poses: &[Pose]| {
+        let roots = Roots::Each(poses);
+        let scene = Surroundings { roots, ..scene };
+        solver.step(state, &scene, DT).unwrap().asleep
+    };
+    let mut poses = [Pose::IDENTITY; 6];
+    let first = (0..30 * 60).find(|_| step(&mut state, &poses) == 6);
+    for _ in 0..5 * 60 {
+        for pose in &mut poses[..3] {
+            pose.translation.x -= SPEED * DT;
+        }
+        assert_eq!(step(&mut state, &poses), 0);
+    }
+    let again = (0..30 * 60).find(|_| step(&mut state, &poses) == 6);
+    println!("asleep after {first:?} steps, and {again:?} after roots have crept");
+    assert!(first > Some(60) && again > Some(60), "{first:?}, {again:?}");
+}
