@@ -66,7 +66,7 @@ pub(in crate::cpu) fn overwrite(old: &mut Lanes, new: &Lanes, mask: &LaneMask) {
 
 /// A mask by which cells of planes, which are in memory, take on new values.
 ///
-/// Where a compiler knows that all bits of a lane are alike it makes masked stores, which take far longer on some machines (`docs/performance.md`): so it is kept
+/// Where a compiler knows that all bits of a lane are alike it makes masked stores, which take far longer on some machines (`docs/performance-log.md`): so it is kept
 /// from knowing, and loads the old values, mixes bits and stores all of them.
 #[derive(Clone, Copy)]
 pub(in crate::cpu) struct StoreMask(LaneMask);
