@@ -232,3 +232,54 @@ fn keep(at: &mut [Vec3], y: &[Vec3], which: Mask) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::solver::Solver;
+    use crate::{Params, Pose, Roots, Strands, Surroundings};
+    use glam::Vec3;
+
+    #[test]
+    fn nobody_has_been_calm_since_a_root_moved() {
+        const DT: f64 = 1.0 / 60.0;
+        let mut strands = Strands::new();
+        for s in 0..2 {
+            let points = [0.0, 0.1, 0.2].map(|y| Vec3::new(s as f32, -y, 0.0));
+            strands.push(s, &points, None).unwrap();
+        }
+        let (mut solver, mut state) = Solver::new(&strands, &Params::default()).unwrap();
+        let mut poses = [Pose::IDENTITY; 2];
+        let mut times = Vec::new();
+        for moves in [false, true, false] {
+            for _ in 0..20 {
+                if moves {
+                    poses[0].translation.x += 1e-9; // hair keeps up with that
+                }
+                let roots = Roots::Each(&poses);
+                let scene = Surroundings {
+                    roots,
+                    ..Default::default()
+                };
+                solver.step(&mut state, &scene, DT).unwrap();
+            }
+            let of = |strand: usize| {
+                let (batch, lane) = solver.places[strand];
+                let batch = &state.batches[batch];
+                [batch.calm[lane], batch.quiet[lane]]
+            };
+            times.push([of(0), of(1)]);
+        }
+        // In the first step after it has moved the root comes to rest.
+        let [[first, second], moving, after] = [times[0], times[1], times[2]];
+        assert!(first[0] > 17.0 * DT && second[0] > 17.0 * DT, "{times:?}");
+        assert_eq!(moving.map(|[calm, _]| calm), [0.0; 2]);
+        assert_eq!(moving[0][1], 0.0);
+        let quiet = moving[1][1] - second[1];
+        assert!(quiet > 19.5 * DT, "the other has hardly moved: {times:?}");
+        assert!(
+            after[0][0] > 17.0 * DT && after[0][0] < 20.5 * DT,
+            "{times:?}"
+        );
+        assert_eq!(after[0][0], after[1][0]);
+    }
+}
