@@ -119,7 +119,7 @@ impl Dress {
                 layers.extend(hemmed(crew, Cloth::Accent));
                 layers.extend(hemmed(outside_v, Cloth::Dress));
             }
-            Self::Sailor => layers.extend(hemmed(sailor, Cloth::Dress)),
+            Self::Sailor => layers.extend(hemmed(sailor_below_collar, Cloth::Dress)),
         }
         layers
     }
@@ -178,7 +178,7 @@ fn camisole(p: Vec3) -> f32 {
 /// From the outer edge of a strap over the shoulder inwards.
 fn strap(p: Vec3) -> f32 {
     if p.y > 1.36 {
-        return -1.0; // the head
+        return 1.0; // the head, which is inside of straps as the neck is: a change of sign would be an edge
     }
     0.077 + 0.10 * (1.25 - p.y) - p.x
 }
@@ -191,9 +191,19 @@ fn outside_v(p: Vec3) -> f32 {
 }
 
 fn sailor(p: Vec3) -> f32 {
+    crew(p).min(outside_sailor_v(p, 1.222))
+}
+
+/// What is painted of it: its V ends below collar and bow, so that no strip of it shows beside them.
+fn sailor_below_collar(p: Vec3) -> f32 {
+    crew(p).min(outside_sailor_v(p, 1.212) - 0.007)
+}
+
+/// Outside of a V above a height.
+fn outside_sailor_v(p: Vec3, bottom: f32) -> f32 {
     let behind = (-0.012 - p.z).max(0.0);
     let edge = (p.y - 1.222).max(0.0) * 0.50;
-    crew(p).min(0.87 * (p.x - edge) + 3.0 * behind + if p.y < 1.222 { 0.01 } else { 0.0 })
+    0.87 * (p.x - edge) + 3.0 * behind + if p.y < bottom { 0.01 } else { 0.0 }
 }
 
 /// A point around the neck: `out` metres from its axis to the side, `ahead` to the front.
