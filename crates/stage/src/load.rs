@@ -468,7 +468,18 @@ pub(crate) fn strands(
     if given.scale.is_none() {
         notes.extend(misfit(&hair.strands, mesh));
     }
+    notes.extend(pointless(&hair.strands));
     Ok(HairModel::read(hair, head))
+}
+
+/// A warning of strands of which all points are in one place, as nothing is drawn of them.
+fn pointless(strands: &Strands) -> Option<String> {
+    let is_point = |strand: &[Vec3]| strand.iter().all(|point| *point == strand[0]);
+    let found = strands.iter().filter(|strand| is_point(strand)).count();
+    (found > 0).then(|| {
+        let all = strands.len();
+        format!("hair: WARNING: {found} of {all} strands have no length, all points in one place: nothing is drawn of them")
+    })
 }
 
 /// The error of a format that is not read, with styles among those that are.

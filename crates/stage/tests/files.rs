@@ -65,6 +65,20 @@ fn hair_that_does_not_fit_its_head_is_told() {
 }
 
 #[test]
+fn strands_without_a_length_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.strands.ron");
+    let point = "(points: [(0, 1.7, 0.05), (0, 1.7, 0.05), (0, 1.7, 0.05)])";
+    let mut text = strands(1.0);
+    let end = text.rfind("])").unwrap();
+    text.insert_str(end, &format!(", {point}, {point}"));
+    fs::write(&path, text).unwrap();
+    let notes = notes("", &path);
+    let warning = "hair: WARNING: 2 of 18 strands have no length, all points in one place: nothing is drawn of them";
+    assert!(notes.iter().any(|note| note == warning), "{notes:?}");
+}
+
+#[test]
 fn the_mohawk_is_told_to_be_small() {
     let Some(data) = std::env::var_os("INKSTRAND_DATA") else {
         return eprintln!("SKIPPED 1 test: INKSTRAND_DATA is not set");
