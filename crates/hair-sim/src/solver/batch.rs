@@ -200,6 +200,9 @@ pub(crate) struct BatchState {
     pub recalled: Vec<Lane>,
     /// For how long strands have moved by themselves while others pressed on them, or a body on those that are tied, in s: see [`super::unrest`].
     pub restless: Lane,
+    /// Where the tips were a step before, and their way in the step before that.
+    pub tip_before: Vec3,
+    pub tip_way: Vec3,
     /// For how long neither any roots nor anything that acts on strands have moved, in s.
     pub calm: Lane,
     /// Links to other strands that hold no more: one for every pair of the batch.
@@ -243,6 +246,8 @@ impl BatchState {
             recalled: Vec::new(),
             calm: Lane::ZERO,
             restless: Lane::ZERO,
+            tip_before: Vec3::ZERO,
+            tip_way: Vec3::ZERO,
             broken: Vec::new(),
             pull: NO_PULL,
             ceiling: Lane::ZERO,
@@ -316,6 +321,8 @@ impl BatchState {
         self.quiet_at.iter_mut().for_each(turned);
         self.trembling_at.iter_mut().for_each(turned);
         turned(&mut self.root_velocity);
+        turned(&mut self.tip_before);
+        turned(&mut self.tip_way);
         // The next step finds out anew what energy there is.
         self.pull = NO_PULL;
         self.root = root;

@@ -47,7 +47,8 @@ pub(crate) fn advance<T: Number>(
             let awake = asleep.not();
             let active = prepare::<T>(rods, batch, state, scratch, drives, awake, &mut stats);
             stats.strands = active.count();
-            if drive.locks.is_some() || !drive.anchors.is_empty() {
+            let has_bodies = !drive.surroundings.colliders.is_empty();
+            if drive.locks.is_some() || has_bodies || !drive.anchors.is_empty() {
                 calm_down(batch, state, &mut scratch.work.loads, drives, active);
             }
 

@@ -25,6 +25,10 @@ const MOVES: f64 = 1e-3;
 /// a second, and what is driven on hardly creeps after two.
 const STICKS: f64 = 5e3;
 
+/// What trembles on a body turns back in each step or in each second one. A step in which it doesn't takes away this share of one in which it does, and
+/// what swings with a period of more than ten steps never counts.
+const GOES_ON: f64 = 0.25;
+
 /// Takes note of for how long the strands of `active` have been restless, and adds to the loads of a step what makes them stick.
 #[inline(always)]
 pub(super) fn calm_down(
@@ -34,13 +38,18 @@ pub(super) fn calm_down(
     (drive, root): (&Drive, &RootMotion),
     active: Mask,
 ) {
-    let counts = active.pick(moved(batch, state, drive), Lane::ZERO);
+    let tip = state.y.last().copied().unwrap_or(Vec3::ZERO);
+    let way = tip - state.tip_before;
+    let turned_back = way.dot(state.tip_way).lt(Lane::ZERO);
+    state.tip_before = Vec3::pick(active, tip, state.tip_before);
+    state.tip_way = Vec3::pick(active, way, state.tip_way);
+    let counts = active.pick(moved(batch, state, drive, turned_back), Lane::ZERO);
     if counts == Lane::ZERO && state.restless == Lane::ZERO {
         return;
     }
     let stirs = stirred(batch, state, (drive, root)) * (drive.dt / STIRS);
     let restless = state.restless * (Lane::ONE + stirs).recip() + counts;
-    state.restless = active.pick(restless, state.restless);
+    state.restless = active.pick(restless.max(Lane::ZERO), state.restless);
     let over = (state.restless - Lane::splat(PATIENCE[0])).max(Lane::ZERO);
     if over.gt(Lane::ZERO).any() {
         let rate = over * over * over * over * STICKS;
@@ -48,17 +57,20 @@ pub(super) fn calm_down(
     }
 }
 
-/// What counts of the step before as moved, in s, where others press on strands, or a body on those that are tied.
+/// What counts of the step before as moved, in s, where others press on strands, or a body on those that are tied. Where a body presses on others, what
+/// trembles counts alone, and what goes on in its direction takes from that again: so does what swings for most of its time.
 #[inline(always)]
-fn moved(batch: &Batch, state: &BatchState, drive: &Drive) -> Lane {
+fn moved(batch: &Batch, state: &BatchState, drive: &Drive, turned_back: Mask) -> Lane {
     let (bodies, others) = state.press.split_at(batch.count());
-    let mut tied = Lane::ZERO;
+    let patient = state.restless.lt(Lane::splat(PATIENCE[0]));
+    let goes_on = patient.pick(Lane::splat(-GOES_ON), Lane::ZERO);
+    let mut by_bodies = turned_back.pick(Lane::ONE, goes_on);
     for own in drive.anchors {
-        tied[own.lane] = 1.0;
+        by_bodies[own.lane] = 1.0;
     }
     let mut held = Lane::ZERO;
     for press in bodies {
-        held = press.gt(Lane::ZERO).pick(tied, held);
+        held = press.gt(Lane::ZERO).pick(by_bodies, held);
     }
     for press in others {
         held = press.gt(Lane::ZERO).pick(Lane::ONE, held);

@@ -2,13 +2,6 @@
 
 use super::*;
 
-/// A file of this text in a folder.
-fn written(folder: &Path, name: &str, text: &str) -> PathBuf {
-    let path = folder.join(name);
-    fs::write(&path, text).unwrap();
-    path
-}
-
 /// Locks of looks that keep out of each other when a head turns fast, at 60 frames a second: it moves them, and costs few iterations more.
 #[test]
 fn locks_keep_out_of_each_other_in_looks() {

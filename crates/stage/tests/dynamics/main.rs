@@ -6,6 +6,7 @@
 )]
 
 mod locks;
+mod on_bodies;
 mod rates;
 
 use effects::Registry;
@@ -60,6 +61,13 @@ fn means(stage: &mut Stage, time: f32) -> Vec<Vec3> {
 fn farthest(a: &[Vec3], b: &[Vec3]) -> f32 {
     let apart = a.iter().zip(b).map(|(a, b)| a.distance(*b));
     apart.fold(0.0, f32::max)
+}
+
+/// A file of this text in a folder.
+fn written(folder: &Path, name: &str, text: &str) -> PathBuf {
+    let path = folder.join(name);
+    fs::write(&path, text).unwrap();
+    path
 }
 
 /// How far nine of ten strands are at most from where others have them, and how far all are, in m.
