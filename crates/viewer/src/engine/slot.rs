@@ -5,8 +5,8 @@ use super::{Drawn, Facts, Look, Problem, Times, Wish};
 use effects::Registry;
 use effects::preset::PresetErrors;
 use stage::{
-    AlphaChoice, BodySection, CameraSection, Files, FrameMaker, Motion, Preset, Scene, Sections,
-    StageError, Textures,
+    BodySection, CameraSection, Files, FrameMaker, MeshSection, Motion, ObjectSection, Preset,
+    Scene, Sections, StageError, Textures,
 };
 use std::fs;
 use std::path::PathBuf;
@@ -38,9 +38,9 @@ struct Loaded {
 #[derive(PartialEq)]
 struct From {
     sections: Sections,
-    has_objects: bool,
-    /// Of each mesh which it is: how it is painted is the look's.
-    meshes: Vec<([Option<String>; 4], AlphaChoice)>,
+    objects: Vec<ObjectSection>,
+    /// But for their colours and outlines, which are the look's.
+    meshes: Vec<MeshSection>,
     bodies: Vec<BodySection>,
     /// Those that layers name, which must be the hair's.
     zones: Vec<String>,
@@ -100,9 +100,12 @@ impl<'r> Slot<'r> {
             .layers
             .retain(|layer| look.layers.is_shown(&layer.name));
         let made = match self.loaded.take() {
-            Some(loaded) if loaded.from == from => stage::Look::new(&preset, &files)
-                .and_then(|own| loaded.scene.with_look(own))
-                .map_err(|error| (error, Some(loaded))),
+            // One object alone has a look of its own, which is not the scene's.
+            Some(loaded) if loaded.from == from && preset.objects.len() != 1 => {
+                stage::Look::new(&preset, &files)
+                    .and_then(|own| loaded.scene.with_look(own))
+                    .map_err(|error| (error, Some(loaded)))
+            }
             loaded => Scene::load(&preset, &files).map_err(|error| (error, loaded)),
         };
         let scene = match made {
@@ -227,13 +230,11 @@ impl From {
                     None => Sections::default(),
                 }
             },
-            has_objects: !preset.objects.is_empty(),
+            objects: (preset.objects.iter())
+                .map(|object| object.section.clone())
+                .collect(),
             meshes: (preset.meshes.iter())
-                .map(|mesh| &mesh.section)
-                .map(|mesh| {
-                    let names = [&mesh.file, &mesh.only, &mesh.hide, &mesh.texture];
-                    (names.map(Option::clone), mesh.alpha)
-                })
+                .map(|mesh| without_paint(&mesh.section))
                 .collect(),
             bodies: (preset.bodies.iter())
                 .map(|body| body.section.clone())
@@ -258,6 +259,24 @@ impl From {
                 .map(|path| (path.clone(), stamp(&path)))
                 .collect(),
         }
+    }
+}
+
+/// A mesh in the colours and the outline of one of which nothing is said.
+fn without_paint(mesh: &MeshSection) -> MeshSection {
+    let MeshSection {
+        color,
+        shade,
+        line,
+        width,
+        ..
+    } = MeshSection::default();
+    MeshSection {
+        color,
+        shade,
+        line,
+        width,
+        ..mesh.clone()
     }
 }
 

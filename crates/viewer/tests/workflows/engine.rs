@@ -45,6 +45,127 @@ fn next_answer(engine: &mut Engine) -> Option<Answer> {
     None
 }
 
+/// The sharp answer to a wish for that text, or the first one that tells what is wrong with it.
+fn last_answer(engine: &mut Engine, looks: &Looks, text: &str) -> Answer {
+    engine.wish(wish(looks, text));
+    loop {
+        let answer = next_answer(engine).expect("the look is drawn, or its mistake told");
+        if answer.is_final || !answer.problems.is_empty() {
+            return answer;
+        }
+    }
+}
+
+/// The sharp picture of that text.
+fn pixels(engine: &mut Engine, looks: &Looks, text: &str) -> Vec<u8> {
+    let mut answer = last_answer(engine, looks, text);
+    assert!(answer.problems.is_empty(), "{:?}", answer.problems);
+    answer.pictures.remove(0).expect("a picture").pixels
+}
+
+/// The text with something else in place of what it has there.
+fn edited(text: &str, from: &str, to: &str) -> String {
+    assert_eq!(text.matches(from).count(), 1, "{from}");
+    text.replace(from, to)
+}
+
+/// That each edit of a text changes its picture, to that of one who opens the edited text.
+fn assert_edits_are_seen(text: &str, edits: &[[&str; 2]]) {
+    let looks = Looks::new();
+    let start = || Engine::start(Arc::new(inkstrand::builtin_effects()), || {});
+    let mut engine = start();
+    let mut before = pixels(&mut engine, &looks, text);
+    for [from, to] in edits {
+        let edited = edited(text, from, to);
+        let after = pixels(&mut engine, &looks, &edited);
+        assert!(after != before, "{to}");
+        let opened = pixels(&mut start(), &looks, &edited);
+        assert!(after == opened, "{to}");
+        before = after;
+    }
+}
+
+/// Two heads as other presets describe them.
+const TWO: &str = r#"(
+    version: 1,
+    scene: (size: (160, 120), samples: 4),
+    camera: (distance: 5),
+    objects: [
+        (preset: "look.ron", at: (-0.13, 0, 0), turn: 35),
+        (preset: "look.ron", at: (0.15, 0.02, 0.08), turn: -40),
+    ],
+)
+"#;
+
+/// Two cubes without a head.
+const CUBES: &str = r#"(
+    version: 1,
+    head: (shape: none),
+    meshes: [
+        (shape: cube, name: "left", color: "F2C14E", at: (-0.62, 0, 0.1), turn: (24, 0, 0), size: 0.9),
+        (shape: cube, name: "right", color: "5FA8A0", at: (0.62, 0, -0.1), turn: (-14, 0, 0)),
+    ],
+    scene: (size: (160, 120), samples: 4),
+    camera: (yaw: 8, pitch: 22, distance: 2.5),
+    lines: [(name: "ink", of: "left", kind: "crease")],
+    layers: [
+        (effect: "mesh.toon", on: "*"),
+        (effect: "line.ink", on: "ink", params: (width: 4.5)),
+    ],
+)
+"#;
+
+#[test]
+fn objects_move_as_they_are_edited() {
+    let edits = [
+        ["turn: 35", "turn: 80"],
+        ["at: (-0.13, 0, 0)", "at: (-0.2, 0.05, 0)"],
+    ];
+    assert_edits_are_seen(TWO, &edits);
+}
+
+#[test]
+fn meshes_move_as_they_are_edited() {
+    let edits = [
+        ["at: (-0.62, 0, 0.1)", "at: (-0.62, 0.4, 0.1)"],
+        ["turn: (24, 0, 0)", "turn: (60, 0, 0)"],
+        ["size: 0.9", "size: 0.5"],
+        [
+            "(shape: cube, name: \"left\"",
+            "(shape: gear, name: \"left\"",
+        ],
+        ["color: \"F2C14E\"", "color: \"30251C\""],
+    ];
+    assert_edits_are_seen(CUBES, &edits);
+}
+
+#[test]
+fn hair_is_not_loaded_again_for_a_colour() {
+    let looks = Looks::new();
+    let mut engine = Engine::start(Arc::new(inkstrand::builtin_effects()), || {});
+    let text = with("meshes: [(shape: cube, color: \"F2C14E\", at: (0, 0, 0.9), size: 0.5)],");
+    let before = pixels(&mut engine, &looks, &text);
+    // Another style that looks untouched, and can't be read.
+    let path = looks.path("bob.style.ron");
+    let about = std::fs::metadata(&path).unwrap();
+    std::fs::write(&path, " ".repeat(about.len() as usize)).unwrap();
+    let file = std::fs::File::options().write(true).open(&path).unwrap();
+    file.set_modified(about.modified().unwrap()).unwrap();
+    drop(file);
+    let of_layer = edited(
+        &text,
+        "(effect: \"hair.base\")",
+        "(effect: \"hair.base\", params: (brightness: 0.5))",
+    );
+    let of_mesh = edited(&of_layer, "color: \"F2C14E\"", "color: \"30251C\"");
+    let layer = pixels(&mut engine, &looks, &of_layer);
+    assert!(layer != before);
+    assert!(pixels(&mut engine, &looks, &of_mesh) != layer);
+    // Another place needs all files.
+    let moved = edited(&of_mesh, "size: 0.5", "size: 0.6");
+    assert!(!last_answer(&mut engine, &looks, &moved).problems.is_empty());
+}
+
 #[test]
 fn hair_far_behind_keeps_nobody_waiting() {
     let looks = Looks::new();
@@ -149,15 +270,7 @@ fn a_still_scene_is_drawn_once_however_long_it_plays() {
 fn a_layer_of_no_zone_is_told_while_it_is_edited() {
     let looks = Looks::new();
     let mut engine = Engine::start(Arc::new(inkstrand::builtin_effects()), || {});
-    let mut last_of = |text: &str| {
-        engine.wish(wish(&looks, text));
-        loop {
-            let answer = next_answer(&mut engine).expect("the look is drawn, or its mistake told");
-            if answer.is_final || !answer.problems.is_empty() {
-                return answer;
-            }
-        }
-    };
+    let mut last_of = |text: &str| last_answer(&mut engine, &looks, text);
     assert!(last_of(LOOK).problems.is_empty());
     let told = last_of(&LOOK.replace(
         "(effect: \"hair.base\"",
