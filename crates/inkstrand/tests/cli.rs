@@ -449,7 +449,32 @@ fn wrong_usage_exits_2() {
 #[test]
 fn failures_exit_1_with_one_message_and_no_file() {
     let folder = folder();
-    let fails: [(&[&str], &str); 4] = [
+    let fails: [(&[&str], &str); 9] = [
+        (
+            &["render", "small.ron", "--set", "hair.file=smal.strands.ron"],
+            "--set hair.file=smal.strands.ron: there is no `smal.strands.ron`, did you mean `small.strands.ron`?",
+        ),
+        (
+            &["render", "small.ron", "--motion", "small.ron"],
+            "--motion: small.ron: this is a preset, and no motion script",
+        ),
+        (
+            &["render", "small.ron", "--hair", "small.ron"],
+            "--hair: small.ron: this is a preset, and no hair",
+        ),
+        (
+            &["render", "small.ron", "--bake", "small.ron"],
+            "--bake: small.ron: this is a preset, and no bake",
+        ),
+        (
+            &[
+                "render",
+                "small.ron",
+                "--set",
+                "motion.file=gone.motion.ron",
+            ],
+            "--set motion.file=gone.motion.ron: there is no `gone.motion.ron`",
+        ),
         (&["render", "gone.ron"], "gone.ron"),
         (&["render", "small.ron", "--hair", "gone.tfx"], "gone.tfx"),
         (&["render", "small.ron", "--head", "small.ron"], "small.ron"),
@@ -492,6 +517,21 @@ fn files_that_a_preset_names_are_looked_for() {
         .assert()
         .success();
     }
+}
+
+#[test]
+fn a_picture_that_set_names_is_told_with_the_option() {
+    let folder = folder();
+    let presets = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../presets");
+    let preset = presets.join("cel-1980s.ron");
+    let set = ["--set", "hair.toon.tones=nix.png"];
+    inkstrand(
+        folder.path(),
+        &["render", preset.to_str().unwrap(), set[0], set[1]],
+    )
+    .assert()
+    .code(1)
+    .stderr(contains("--set hair.toon.tones=nix.png: there is no `"));
 }
 
 #[test]

@@ -142,6 +142,12 @@ fn what_is_for_one_head_is_refused() {
         &["render", "pair.ron", "--set", "clump.size=2"],
     ));
     assert!(text.contains("`clump` is said in their presets"), "{text}");
+    let text = error(inkstrand(
+        &folder,
+        &["render", "pair.ron", "--only", "hair.base"],
+    ));
+    let message = "there is no layer `hair.base`: this preset draws objects";
+    assert!(text.contains(message) && text.contains("a.ron"), "{text}");
     let line = [
         "simulate",
         "pair.ron",

@@ -62,6 +62,21 @@ fn a_bake_draws_the_same_pictures_as_the_simulation() {
 }
 
 #[test]
+fn a_preset_without_hair_has_no_bake() {
+    let folder = tempfile::tempdir().unwrap();
+    Command::cargo_bin("inkstrand")
+        .unwrap()
+        .current_dir(folder.path())
+        .arg("simulate")
+        .arg(presets().join("cup-ink.ron"))
+        .args(["-o", "b.strands.ron", "--frames", "0-3"])
+        .assert()
+        .code(1)
+        .stderr(contains("cup-ink.ron: it has no hair to simulate"));
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
 fn a_bake_of_other_hair_is_refused() {
     let folder = folder();
     inkstrand(

@@ -283,6 +283,34 @@ impl<'r> Preset<'r> {
         PresetErrors::report(errors)
     }
 
+    /// What is wrong with the file that a parameter names, written as [`Self::set`] takes it, where there is no such file and `files`
+    /// has no other.
+    #[must_use]
+    pub fn missing_file(&self, name: &str, files: &Files) -> Option<String> {
+        let (owner, param) = name.rsplit_once('.')?;
+        let sections = &self.sections;
+        let (file, given) = match (owner, param) {
+            ("hair", "file") => (sections.hair.file.as_deref(), &files.hair),
+            ("hair", "bake") => (sections.hair.bake.as_deref(), &files.bake),
+            ("head", "file") => (sections.head.file.as_deref(), &files.head),
+            ("motion", "file") => (sections.motion.file.as_deref(), &files.motion),
+            ("motion", "gltf") => (sections.motion.gltf.as_deref(), &None),
+            _ => {
+                let layer_name = owner.strip_suffix(".brush").unwrap_or(owner);
+                let is_it = |layer: &&LayerSpec| layer.name == owner || layer.name == layer_name;
+                let layer = self.layers.iter().find(is_it)?;
+                let mut textures = textures_of(layer);
+                let texture = textures.find(|(own, ..)| *own == param);
+                (texture.map(|(.., file)| file), &None)
+            }
+        };
+        if given.is_some() {
+            return None;
+        }
+        let hint = "; it is relative to the preset's folder";
+        no_file(&files.preset_folder.join(file?), hint)
+    }
+
     /// Where a section or list stands, in the file or in a base.
     pub(crate) fn place_of_part(&self, name: &str) -> Option<&Place> {
         let part = self.parts.iter().find(|(part, _)| part == name);
@@ -347,7 +375,8 @@ impl<'r> Preset<'r> {
             return set_text(&mut body.section, owner, param, text);
         }
         let Some(section) = self.sections.by_name(owner) else {
-            return Err(SetError::Unknown(self.no_owner(owner)));
+            let message = of_a_list(owner, param).unwrap_or_else(|| self.no_owner(owner));
+            return Err(SetError::Unknown(message));
         };
         if !self.objects.is_empty() && objects::is_of_objects(owner) {
             return Err(SetError::Unknown(objects::said_elsewhere(owner)));
@@ -404,6 +433,12 @@ impl<'r> Preset<'r> {
     }
 
     fn no_layer(&self, name: &str) -> String {
+        if let Some(object) = self.objects.first() {
+            let own = object.section.preset.as_deref().unwrap_or("its own.ron");
+            return format!(
+                "there is no layer `{name}`: this preset draws objects, and their layers are in presets of their own, such as {own}"
+            );
+        }
         let layers: Vec<&str> = self
             .layers
             .iter()
@@ -411,6 +446,30 @@ impl<'r> Preset<'r> {
             .collect();
         let hint = suggestion(name, layers.iter().copied());
         format!("there is no layer `{name}`{hint}")
+    }
+}
+
+/// What is wrong with a parameter of a list as a whole, or of one that stands in another file.
+fn of_a_list(owner: &str, param: &str) -> Option<String> {
+    let list = owner.split('.').next()?;
+    match list {
+        "passes" | "meshes" | "lines" | "bodies" => Some(format!(
+            "`{list}` is a list, and its items are set by their numbers, such as {list}.1.{param}"
+        )),
+        "layers" => Some(
+            "`layers` is a list, and layers are set by their names, such as hair.base.brightness"
+                .to_owned(),
+        ),
+        "objects" => Some(
+            "`objects` is a list, which can't be set: what it says stands in the preset".to_owned(),
+        ),
+        "zones" | "edits" | "strands" | "accessories" => Some(format!(
+            "`{list}` is a list of a hair style, which can't be set: it is changed in its file"
+        )),
+        "moves" | "keys" | "winds" | "shapes" | "body_keys" => Some(format!(
+            "`{list}` is a list of a motion script, which can't be set: it is changed in its file"
+        )),
+        _ => None,
     }
 }
 

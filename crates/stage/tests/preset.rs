@@ -260,7 +260,11 @@ fn passes_are_a_list_whose_lines_are_set_by_number() {
             "passes.1.fad",
             "passes.1 has no `fad`, did you mean `fade`?",
         ),
-        ("passes.fade", "no layer `passes`"),
+        ("passes.fade", "by their numbers, such as passes.1.fade"),
+        ("bodies.radius", "by their numbers, such as bodies.1.radius"),
+        ("zones.fringe.count", "`zones` is a list of a hair style"),
+        ("winds.speed", "`winds` is a list of a motion script"),
+        ("layers.zones", "layers are set by their names"),
     ] {
         let error = preset.set(name, "1").unwrap_err().to_string();
         assert!(error.contains(message), "{name}: {error}");

@@ -88,6 +88,10 @@ fn mistakes_in_styles_have_their_places() {
         assert!(message.contains(line), "`{line}` is missing in:\n{message}");
     }
     assert!(refusal("(zones: [])").contains("needs `version: 1`"));
+    assert!(refusal("(version: 1, zonse: [])").contains("no `zonse`, did you mean `zones`?"));
+    assert!(
+        refusal("(version: 1, qqq: 1)").contains("hairline, zones, edits, strands, accessories")
+    );
     assert!(refusal("(version: 1)").contains("has no `zones`"));
     assert!(refusal("(version: 1, zones: [])").contains("has no `zones`"));
 }

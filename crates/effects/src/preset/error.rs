@@ -134,11 +134,25 @@ pub fn nearest<'a>(wrong: &str, names: impl IntoIterator<Item = &'a str>) -> Opt
         .map(|(_, name)| name)
 }
 
-/// The end of a sentence about a wrong name: `, did you mean x?`, or the list of all names.
+/// The end of a sentence about a wrong name: `, did you mean x?`, or the list of all names, or that there are none.
 pub fn suggestion<'a>(wrong: &str, names: impl IntoIterator<Item = &'a str>) -> String {
     let names: Vec<&str> = names.into_iter().collect();
     match nearest(wrong, names.iter().copied()) {
         Some(name) => format!(", did you mean `{name:.60}`?"),
+        None if names.is_empty() => "; there are none".to_owned(),
         None => format!("; there are: {}", names.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wrong_name_is_told_the_nearest_or_all_or_that_there_are_none() {
+        let names = ["walk", "nod"];
+        assert_eq!(suggestion("wlak", names), ", did you mean `walk`?");
+        assert_eq!(suggestion("qqq", names), "; there are: walk, nod");
+        assert_eq!(suggestion("qqq", []), "; there are none");
     }
 }

@@ -1,7 +1,7 @@
 //! Reading sections of a preset from its text.
 
 use super::brackets::check_brackets;
-use super::error::{MOST_ERRORS, Place, PresetError, PresetErrors};
+use super::error::{MOST_ERRORS, Place, PresetError, PresetErrors, suggestion};
 use super::set::unknown;
 use super::syntax::{self, Kind, Piece, pieces};
 use super::value::{parse_value, shown};
@@ -350,6 +350,23 @@ impl<'a> Reader<'a> {
     pub fn section_of<S: Section + Default>(&mut self, fields: &[Field<'a>], what: &str) -> S {
         let mut section = S::default();
         self.fill(fields, &mut section, what);
+        section
+    }
+
+    /// As [`Self::section_of`], of what has `lists` beside its table, which are read by others: a wrong name may mean one of them.
+    pub fn section_beside<S: Section + Default>(
+        &mut self,
+        fields: &[Field<'a>],
+        what: &str,
+        lists: &[&str],
+    ) -> S {
+        let mut section = S::default();
+        let mut names: Vec<&str> = section.table().iter().map(|p| p.name).collect();
+        names.extend(lists.iter().copied());
+        self.fill_or(fields, &mut section, |field| {
+            let hint = suggestion(field.name, names.iter().copied());
+            format!("{what} has no `{}`{hint}", shown(field.name))
+        });
         section
     }
 

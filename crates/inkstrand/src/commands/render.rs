@@ -1,7 +1,7 @@
 //! `inkstrand render`: a preset to pictures.
 
 use super::progress::{Bar, Watch};
-use super::scene::{Source, check, check_named};
+use super::scene::{Source, check, check_kind, check_named};
 use crate::Failure;
 use crate::cli::{Background, Numbers, RenderOptions};
 use crate::output::Output;
@@ -55,8 +55,9 @@ fn draw(
     let mut preset = source.parse(registry)?;
     options.scene.apply(&mut preset).map_err(Failure::Usage)?;
     apply(options, &mut preset).map_err(Failure::Usage)?;
-    let mut files = options.scene.files(&options.preset)?;
+    let mut files = options.scene.files(&options.preset, &preset)?;
     check_named("--bake", options.bake.as_deref())?;
+    check_kind("--bake", "bake", options.bake.as_deref())?;
     files.bake.clone_from(&options.bake);
 
     let SceneSection {

@@ -6,7 +6,7 @@ use crate::cli::SceneOptions;
 use crate::paths::file_name;
 use crate::say::say;
 use effects::Registry;
-use effects::preset::PresetErrors;
+use effects::preset::{PresetErrors, Reader};
 use stage::{Files, HairFrom, HeadColors, Preset, Stage, is_mesh_file};
 use std::path::Path;
 
@@ -82,9 +82,49 @@ pub(super) fn check_named(option: &str, path: Option<&Path>) -> Result<(), Failu
     checked.map_err(|message| Failure::Failed(format!("{option}: {message}")))
 }
 
+/// Refuses a preset, or a hair style, where an option takes something else: `wanted`.
+pub(super) fn check_kind(option: &str, wanted: &str, path: Option<&Path>) -> Result<(), Failure> {
+    let Some(path) = path else {
+        return Ok(());
+    };
+    let name = file_name(path);
+    let what = if name.ends_with(".style.ron") && wanted != "hair" {
+        "a hair style"
+    } else if name.ends_with(".motion.ron") && wanted != "motion script" {
+        "a motion script"
+    } else if is_preset(path) {
+        "a preset"
+    } else {
+        return Ok(());
+    };
+    let path = path.display();
+    Err(Failure::Failed(format!(
+        "{option}: {path}: this is {what}, and no {wanted}"
+    )))
+}
+
+/// Whether a file has what presets alone have.
+fn is_preset(path: &Path) -> bool {
+    let name = file_name(path);
+    let others = [".style.ron", ".strands.ron", ".motion.ron"];
+    if !name.ends_with(".ron") || others.iter().any(|ending| name.ends_with(ending)) {
+        return false;
+    }
+    // What is no text is told of by who reads it.
+    let Ok(text) = read_text(path) else {
+        return false;
+    };
+    let mut reader = Reader::new("", &text);
+    let whole = reader.text();
+    let fields = reader.fields(whole, "the file");
+    fields
+        .iter()
+        .any(|field| ["layers", "objects", "base"].contains(&field.name))
+}
+
 impl SceneOptions {
     /// The files that are given in place of the preset's. Those that are named must be there.
-    pub fn files(&self, preset: &Path) -> Result<Files, Failure> {
+    pub fn files(&self, path: &Path, preset: &Preset) -> Result<Files, Failure> {
         let named = [
             ("--hair", &self.hair),
             ("--head", &self.head),
@@ -94,14 +134,23 @@ impl SceneOptions {
         for (option, path) in named {
             check_named(option, path.as_deref())?;
         }
-        Ok(Files {
-            preset_folder: preset_folder(preset),
+        check_kind("--hair", "hair", self.hair.as_deref())?;
+        check_kind("--motion", "motion script", self.motion.as_deref())?;
+        let files = Files {
+            preset_folder: preset_folder(path),
             hair: self.hair.clone(),
             head: self.character.clone().or_else(|| self.head.clone()),
             motion: self.motion.clone(),
             bake: None,
             ..Files::default()
-        })
+        };
+        for assignment in &self.set {
+            let name = assignment.split_once('=').map_or("", |(name, _)| name);
+            if let Some(message) = preset.missing_file(name.trim(), &files) {
+                return Err(Failure::Failed(format!("--set {assignment}: {message}")));
+            }
+        }
+        Ok(files)
     }
 
     /// Sets what is given in place of the preset's numbers.

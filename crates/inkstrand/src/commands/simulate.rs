@@ -20,7 +20,7 @@ pub(crate) fn simulate(options: &SimulateOptions, registry: &Registry) -> Result
     preset.sections.hair.bake = None;
     // Poses are held when they are drawn.
     preset.sections.motion.on = 1;
-    let files = options.scene.files(&options.preset)?;
+    let files = options.scene.files(&options.preset, &preset)?;
     check_output(&options.output, &options.preset, &preset, &files)?;
     // From now on its folder takes it.
     let mut file = WholeFile::create(&options.output)?;
@@ -31,6 +31,12 @@ pub(crate) fn simulate(options: &SimulateOptions, registry: &Registry) -> Result
     let time_of = |frame: u32| frame as f32 / fps;
     let frames = u64::from(last - first) + 1;
     let mut bake = Bake::new(&preset, &files, &stage.scene)?;
+    if stage.strand_count() == 0 {
+        let preset = options.preset.display();
+        return Err(Failure::Failed(format!(
+            "{preset}: it has no hair to simulate"
+        )));
+    }
     let mut bar = Bar::from_first_frame(
         options.quiet,
         &mut stage,

@@ -152,7 +152,7 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<Written, PresetErrors> {
             format!("the style needs `version: {VERSION}`, the version of its format"),
         );
     }
-    let top: StyleFields = reader.section_of(&plain, "the style");
+    let top: StyleFields = reader.section_beside(&plain, "the style", &LISTS);
     let mut style = Style {
         seed: top.seed,
         scalp: scalp(&mut reader, &lists),
