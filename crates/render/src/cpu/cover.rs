@@ -17,6 +17,9 @@ pub(super) use samples::{Clump, Scene};
 /// Sides of cells, pixels: a cell is the least part of the picture of which it is known whether it is covered.
 const CELLS_PX: [f32; 2] = [0.5, 8.0];
 
+/// The most first cells of all threads together: 256 MB. Larger cells hide less.
+const MOST_CELLS: usize = 1 << 26;
+
 /// Clumps count as so much thinner than they are, pixels, and what they hide as so much nearer, by its depth: that makes up for rounding.
 const MARGIN_PX: f32 = 1.0 / 16.0;
 const MARGIN: f32 = 1e-4;
@@ -208,8 +211,13 @@ impl Cover {
         I: Iterator<Item = Link<'a>> + Send,
     {
         let [least, most] = CELLS_PX;
-        let cell_px = radius_px.log2().floor().exp2().clamp(least, most);
-        let [across, down] = size.map(|side| (side as f32 / cell_px).ceil() as usize);
+        let mut cell_px = radius_px.log2().floor().exp2().clamp(least, most);
+        let cells_across = |cell_px: f32| size.map(|side| (side as f32 / cell_px).ceil() as usize);
+        let [mut across, mut down] = cells_across(cell_px);
+        while across * down > MOST_CELLS / rayon::current_num_threads() {
+            cell_px *= 2.0;
+            [across, down] = cells_across(cell_px);
+        }
         let nothing = || Level {
             grid: Grid {
                 origin: Vec2::ZERO,
