@@ -80,6 +80,14 @@ impl Body {
             && (one.size - other.size).abs() < 1e-4
     }
 
+    /// Whether its mesh has, at one of the script's own times (seconds), the form that it has at the other.
+    pub fn has_one_form(&self, one: f64, other: f64) -> bool {
+        match &self.own {
+            Own::Mesh(forms) => forms.are_alike(one, other),
+            _ => true,
+        }
+    }
+
     /// What the keys' spline says of a time.
     fn key_at(&self, time: f64) -> Key {
         let mut key = Key {

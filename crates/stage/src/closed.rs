@@ -24,6 +24,24 @@ const ALIKE: f32 = 5e-5;
 /// Points of all frames of a loop at most: both rounds that are kept take 960 MB then.
 const MOST_POINTS: usize = 40_000_000;
 
+/// Loops of more frames than this take long enough that it is said beforehand.
+const MANY_FRAMES: usize = 480;
+
+/// What to say of a loop of so many seconds before it is drawn, where that takes long; it has so many frames a second.
+pub(crate) fn long(period: f64, fps: f32) -> Option<String> {
+    let frames = frames_of(period, fps);
+    (frames > MANY_FRAMES).then(|| {
+        format!(
+            "loop: all of its {frames} frames are simulated, two to {MOST_ROUNDS} times, before the first one is drawn; a shorter \
+             `period` takes less"
+        )
+    })
+}
+
+fn frames_of(period: f64, fps: f32) -> usize {
+    (period * f64::from(fps)).round().max(2.0) as usize
+}
+
 /// How well hair came back to where it was.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Return {
@@ -66,7 +84,7 @@ impl Closed {
         fps: f32,
     ) -> Result<Self, StageError> {
         let strands = &object.hair().file.strands;
-        let frames = (period * f64::from(fps)).round().max(2.0) as usize;
+        let frames = frames_of(period, fps);
         let points = strands.points().len();
         if frames.saturating_mul(points) > MOST_POINTS {
             return Err(StageError::Loop { frames, points });

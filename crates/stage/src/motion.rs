@@ -35,6 +35,8 @@ pub(crate) struct ObjectMotion {
     dynamics: Option<Dynamics>,
     /// In place of dynamics where the script goes round.
     closed: Option<Closed>,
+    /// Whether the points are those of the loop.
+    is_looped: bool,
     /// What this is the motion of, and the scene's frames a second.
     of: Option<(Object, f32)>,
 }
@@ -215,6 +217,7 @@ impl ObjectMotion {
             points: Vec::new(),
             dynamics: None,
             closed: None,
+            is_looped: false,
             of: None,
         }
     }
@@ -234,6 +237,14 @@ impl ObjectMotion {
             self.dynamics = None;
             self.closed = None;
             self.of = Some((object.clone(), fps));
+        } else if let Some((of, _)) = &mut self.of
+            && of.placement() != object.placement()
+        {
+            // Winds blow in the world, and a loop is made once for all; what is simulated goes on.
+            if !object.script().winds.is_empty() {
+                self.closed = None;
+            }
+            *of = object.clone();
         }
         let script = object.script();
         let driver = Driver { script, hand };
@@ -261,6 +272,7 @@ impl ObjectMotion {
         goes_on: &mut dyn FnMut() -> bool,
     ) -> Result<f64, StageError> {
         let hair = object.hair();
+        self.is_looped = false;
         self.pose(driver, time);
         self.points
             .resize(hair.file.strands.points().len(), Vec3::ZERO);
@@ -292,6 +304,7 @@ impl ObjectMotion {
             if is_closed {
                 closed.sample(object, self.pose, time, &mut self.points);
             }
+            self.is_looped = is_closed;
             self.closed = Some(closed);
             // Before all that is shown, as none of it is there.
             return Ok(if is_closed { time } else { time.min(0.0) - 1.0 });
@@ -388,7 +401,7 @@ impl ObjectMotion {
     /// Whether what is shown tells how links have turned by its points alone: it is of a loop, or held while the head moves.
     pub(crate) fn has_points_alone(&self, object: &Object) -> bool {
         let section = &object.look().sections.motion;
-        self.closed.is_some() || (section.on > 1 && section.held == HeldChoice::Hair)
+        self.is_looped || (section.on > 1 && section.held == HeldChoice::Hair)
     }
 
     /// The points of the object's strands, as they stand; at rest where no motion of it has begun.

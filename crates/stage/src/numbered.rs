@@ -1,6 +1,6 @@
 //! Meshes of numbered files, which take one form after the other.
 
-use crate::bodies::forms::{between, mixed, mixed_normals};
+use crate::bodies::forms::{End, between, mixed, mixed_normals};
 use crate::painted::PaintedMesh;
 use glam::{Vec2, Vec3};
 use mesh_io::Sequence;
@@ -26,8 +26,8 @@ pub(crate) struct Numbered {
     forms: Vec<Form>,
     /// Forms a second.
     rate: f64,
-    /// Whether they start again after the last one.
-    repeats: bool,
+    /// What comes after the last one.
+    end: End,
 }
 
 /// What a mesh is in one file.
@@ -81,7 +81,7 @@ impl Numbered {
         (!forms.is_empty()).then_some(Self {
             forms,
             rate,
-            repeats,
+            end: End::of_files(repeats),
         })
     }
 
@@ -92,7 +92,7 @@ impl Numbered {
 
     /// What it is at a time (seconds): between two files of one mesh it is in between, else as in the file before.
     pub fn at(&self, time: f64) -> Formed<'_> {
-        let (from, to, share) = between(self.forms.len(), self.rate, self.repeats, time);
+        let (from, to, share) = between(self.forms.len(), self.rate, self.end, time);
         let [from, to] = [from, to].map(|form| &self.forms[form]);
         let (positions, normals) = match share == 0.0 || from.kind != to.kind {
             true => (from.positions.clone(), from.normals.clone()),

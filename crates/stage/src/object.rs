@@ -1,6 +1,7 @@
 //! An object of a scene: hair on a head, how it moves, how it is drawn, and where it stands.
 
 use crate::bake;
+use crate::closed;
 use crate::dynamics::BodyMesh;
 use crate::files::{Files, StageError};
 use crate::hair::HairModel;
@@ -81,6 +82,11 @@ impl Object {
         hair.choose_guides(&preset.sections.hair);
         hair.move_out_of_bodies(&script, &preset.sections.dynamics);
         bake::load(preset, files, &mut hair, notes)?;
+        if let Some(period) = script.period.filter(|_| script.closes)
+            && hair.bake.is_none()
+        {
+            notes.extend(closed::long(period, preset.sections.scene.fps));
+        }
         if hair.has_own_colors() {
             notes.extend(look.shades_note());
         }

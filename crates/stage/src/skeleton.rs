@@ -237,6 +237,15 @@ impl Skeleton {
 }
 
 impl Bones<'_> {
+    /// Whether all of them are where those of another time are, within 0.1 mm.
+    pub fn is_alike(&self, other: &Self) -> bool {
+        let [to_ours, _] = self.skeleton.to_ours;
+        let pairs = self.world.iter().zip(&other.world);
+        pairs
+            .into_iter()
+            .all(|(one, other)| (to_ours * *one).abs_diff_eq(to_ours * *other, 1e-4))
+    }
+
     /// How a node has moved since rest; as at rest where it is nowhere.
     fn motion(&self, node: usize) -> Pose {
         self.motion_or_none(node).unwrap_or(Pose::IDENTITY)

@@ -182,3 +182,22 @@ fn a_bake_knows_the_files_of_the_characters_numbers() {
     .unwrap();
     scene_in(folder, motion, |_, _, _| ()).unwrap();
 }
+
+/// A script that goes round is held against the animation below it.
+#[test]
+fn a_loop_is_as_long_as_the_animation() {
+    let folder = tempfile::tempdir().unwrap();
+    character(folder.path());
+    let refusal = |period: &str| {
+        let script = format!("(version: 1,\n period: {period},\n loop: true)");
+        fs::write(folder.path().join("loop.motion.ron"), script).unwrap();
+        let motion = "gltf: \"walker.gltf\", repeat: true, file: \"loop.motion.ron\"";
+        scene_in(folder.path(), motion, |_, _, _| ()).err()
+    };
+    assert_eq!(refusal("1"), None);
+    assert_eq!(refusal("3"), None);
+    let message = refusal("1.5").unwrap();
+    let expected =
+        "loop.motion.ron:3:2: loop: the animation that moves the head is elsewhere after 1.5 s";
+    assert!(message.contains(expected), "{message}");
+}

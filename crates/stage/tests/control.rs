@@ -364,6 +364,29 @@ fn mistakes_are_told_at_their_places() {
             "a.motion.ron:1:14: loop: the head ends elsewhere than it begins: turned by (30, 0, 0)",
         ),
         (
+            // Half a swing too many; one that begins within the period and goes on beyond it; three steps.
+            script(
+                "(version: 1, loop: true, period: 1.5, moves: [(move: shake, length: 10, angle: 30, rate: 1)])",
+            ),
+            "loop: the head ends in another motion than it begins in: by (-188.5, 0, 0) degrees and",
+        ),
+        (
+            script(
+                "(version: 1, loop: true, period: 2, moves: [(move: nod, start: 0.5, length: 10, rate: 2)])",
+            ),
+            "loop: the head ends in another motion than it begins in",
+        ),
+        (
+            script(
+                "(version: 1, loop: true, period: 1.5, moves: [(move: walk, length: 10, rate: 2)])",
+            ),
+            "a whole number of swings in the period (a walk of two steps)",
+        ),
+        (
+            script("(version: 1, mvoes: [])"),
+            "the motion has no `mvoes`, did you mean `moves`?",
+        ),
+        (
             script("(version: 1, loop: true, period: 2, winds: [(start: 1)])"),
             "loop: wind 1 begins within the period of 2 s and blows beyond it",
         ),
@@ -391,8 +414,15 @@ fn mistakes_are_told_at_their_places() {
     ] {
         assert!(message.contains(expected), "{expected}\n{message}");
     }
-    let whole = "(version: 1, loop: true, period: 2, moves: [(move: spin, length: 2, angle: 360)])";
-    assert_eq!(script(whole), "");
+    for whole in [
+        "(move: spin, length: 2, angle: 360)",
+        "(move: shake, length: 10, angle: 30, rate: 1.5)",
+        "(move: walk, length: 10, rate: 3)",
+        "(move: turn, angle: 30, length: 0.5), (move: turn, angle: -30, start: 1, length: 0.5)",
+    ] {
+        let text = format!("(version: 1, loop: true, period: 2, moves: [{whole}])");
+        assert_eq!(script(&text), "");
+    }
 }
 
 #[test]

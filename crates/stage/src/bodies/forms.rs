@@ -15,10 +15,33 @@ pub(crate) struct Forms {
     forms: Vec<Form>,
     /// Forms a second.
     rate: f64,
-    /// Whether they start again after the last one.
-    repeats: bool,
+    /// What comes after the last one.
+    end: End,
     /// The side of a cell of their distances, m.
     cell: f64,
+}
+
+/// What comes after the last of some forms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum End {
+    /// It stays.
+    Stays,
+    /// The first one, as far from it as the others are from each other.
+    First,
+    /// What comes after the first one, which the last one is again.
+    Round,
+}
+
+impl End {
+    /// Of the numbered files of a mesh.
+    pub fn of_files(repeats: bool) -> Self {
+        if repeats { Self::First } else { Self::Stays }
+    }
+
+    /// Of an animation.
+    pub fn of_animation(repeats: bool) -> Self {
+        if repeats { Self::Round } else { Self::Stays }
+    }
 }
 
 /// One form of a mesh, about the body's middle, m.
@@ -67,7 +90,7 @@ impl Forms {
     /// # Errors
     ///
     /// The number of the first one, from 0, that has no distances, and why.
-    pub fn new(forms: Vec<Form>, rate: f64, repeats: bool) -> Result<Self, (usize, GridError)> {
+    pub fn new(forms: Vec<Form>, rate: f64, end: End) -> Result<Self, (usize, GridError)> {
         // Of the largest form, so that none of them takes more cells.
         let side = |form: &Form| {
             let [low, high] = form.bounds();
@@ -78,7 +101,7 @@ impl Forms {
             cell: longest / CELLS,
             forms,
             rate,
-            repeats,
+            end,
         };
         for (number, form) in forms.forms.iter().enumerate() {
             SignedDistance::check(&form.positions, &form.triangles, forms.cell)
@@ -102,7 +125,19 @@ impl Forms {
 
     /// The forms before and after a time (seconds), by their numbers, and the share of the way between them.
     pub fn between(&self, time: f64) -> (usize, usize, f64) {
-        between(self.forms.len(), self.rate, self.repeats, time)
+        between(self.forms.len(), self.rate, self.end, time)
+    }
+
+    /// Whether the surfaces of two times (seconds) are alike, within a tenth of a cell of their distances.
+    pub fn are_alike(&self, one: f64, other: f64) -> bool {
+        let [(places, _, triangles), (other_places, _, other_triangles)] =
+            [one, other].map(|time| self.shape(time));
+        let far = 0.1 * self.cell as f32;
+        triangles == other_triangles
+            && places
+                .iter()
+                .zip(&other_places)
+                .all(|(p, q)| p.distance(*q) <= far)
     }
 
     /// The surface that is drawn at a time (seconds): between two forms of one mesh it is in between, else the form before.
@@ -121,19 +156,20 @@ impl Forms {
 }
 
 /// Of so many forms, `rate` a second, those before and after a time (seconds), by their numbers, and the share of the way between them.
-pub(crate) fn between(count: usize, rate: f64, repeats: bool, time: f64) -> (usize, usize, f64) {
-    let count = count as f64;
+pub(crate) fn between(count: usize, rate: f64, end: End, time: f64) -> (usize, usize, f64) {
+    let last = count - 1;
     let place = time * rate;
-    let place = match repeats {
-        true => place.rem_euclid(count),
-        false => place.clamp(0.0, count - 1.0),
+    let place = match end {
+        End::First => place.rem_euclid(count as f64),
+        End::Round if last > 0 => place.rem_euclid(last as f64),
+        End::Round | End::Stays => place.clamp(0.0, last as f64),
     };
-    let from = place.floor().min(count - 1.0);
-    let next = match repeats {
-        true => (from + 1.0) % count,
-        false => (from + 1.0).min(count - 1.0),
+    let from = (place.floor() as usize).min(last);
+    let next = match end {
+        End::First => (from + 1) % count,
+        End::Round | End::Stays => (from + 1).min(last),
     };
-    (from as usize, next as usize, (place - from).clamp(0.0, 1.0))
+    (from, next, (place - from as f64).clamp(0.0, 1.0))
 }
 
 /// Places a share of the way from one form to the next.
@@ -176,17 +212,24 @@ mod tests {
     #[test]
     fn forms_follow_each_other_as_their_rate_says() {
         let forms = || vec![cube(0.1), cube(0.2), cube(0.4)];
-        let once = Forms::new(forms(), 2.0, false).unwrap();
-        let round = Forms::new(forms(), 2.0, true).unwrap();
-        for (time, alone, again) in [
-            (-1.0, (0, 1, 0.0), (1, 2, 0.0)),
-            (0.0, (0, 1, 0.0), (0, 1, 0.0)),
-            (0.25, (0, 1, 0.5), (0, 1, 0.5)),
-            (1.25, (2, 2, 0.0), (2, 0, 0.5)),
-            (9.0, (2, 2, 0.0), (0, 1, 0.0)),
+        let once = Forms::new(forms(), 2.0, End::Stays).unwrap();
+        let again = Forms::new(forms(), 2.0, End::First).unwrap();
+        let round = Forms::new(forms(), 2.0, End::Round).unwrap();
+        for (time, expected) in [
+            (-1.0, [(0, 1, 0.0), (1, 2, 0.0), (0, 1, 0.0)]),
+            (0.0, [(0, 1, 0.0); 3]),
+            (0.25, [(0, 1, 0.5); 3]),
+            (1.0, [(2, 2, 0.0), (2, 0, 0.0), (0, 1, 0.0)]),
+            (1.25, [(2, 2, 0.0), (2, 0, 0.5), (0, 1, 0.5)]),
+            (9.0, [(2, 2, 0.0), (0, 1, 0.0), (0, 1, 0.0)]),
         ] {
-            assert_eq!(once.between(time), alone, "{time}");
-            assert_eq!(round.between(time), again, "{time}");
+            let found = [&once, &again, &round].map(|forms| forms.between(time));
+            assert_eq!(found, expected, "{time}");
+        }
+        // One alone stays whatever comes.
+        for end in [End::Stays, End::First, End::Round] {
+            let (from, to, _) = between(1, 24.0, end, 7.3);
+            assert_eq!((from, to), (0, 0), "{end:?}");
         }
         // Each form has its distances.
         for (form, half) in [(0, 0.1), (1, 0.2), (2, 0.4)] {
@@ -201,7 +244,7 @@ mod tests {
     fn a_form_without_distances_is_named() {
         let mut bad = cube(0.2);
         bad.triangles.push([0, 1, 99]);
-        let error = Forms::new(vec![cube(0.1), bad], 1.0, false).unwrap_err();
+        let error = Forms::new(vec![cube(0.1), bad], 1.0, End::Stays).unwrap_err();
         assert_eq!(
             error,
             (
@@ -214,10 +257,10 @@ mod tests {
         );
         let mut bad = cube(0.2);
         bad.positions[3].y = f32::NAN;
-        let error = Forms::new(vec![cube(0.1), cube(0.1), bad], 1.0, false).unwrap_err();
+        let error = Forms::new(vec![cube(0.1), cube(0.1), bad], 1.0, End::Stays).unwrap_err();
         assert_eq!(error, (2, GridError::NotFinite(3)));
         // A later form that is a thousand times as large takes no more memory.
-        let forms = Forms::new(vec![cube(0.001), cube(1.0)], 1.0, false).unwrap();
+        let forms = Forms::new(vec![cube(0.001), cube(1.0)], 1.0, End::Stays).unwrap();
         assert!(forms.cell > 0.01);
     }
 }

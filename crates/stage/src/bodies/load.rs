@@ -1,6 +1,6 @@
 //! Bodies with their files.
 
-use super::forms::{Form, Forms};
+use super::forms::{End, Form, Forms};
 use super::section::{BodySection, BodyShape, NamedBody, NamedKey};
 use super::{Body, Key, Own};
 use crate::files::StageError;
@@ -120,6 +120,7 @@ fn mesh(
         return Err(wrong("a body of shape mesh needs a `file`".to_owned()));
     };
     let mut rate = f64::from(section.rate);
+    let mut end = End::of_files(section.repeat);
     let mut forms = Vec::new();
     if section.is_sequence() {
         let sequence = Sequence::find(path).map_err(|error| wrong(error.to_string()))?;
@@ -140,8 +141,8 @@ fn mesh(
         match &section.animation {
             None => forms.push(form(&model, None, orientation)),
             Some(name) => {
-                rate = ANIMATION_RATE;
-                forms = animated(&model, name, orientation).map_err(wrong)?;
+                end = End::of_animation(section.repeat);
+                (rate, forms) = animated(&model, name, orientation).map_err(wrong)?;
             }
         }
     }
@@ -155,7 +156,7 @@ fn mesh(
         form.put(middle, turn, f64::from(section.size));
     }
     let several = forms.len() > 1;
-    let forms = Forms::new(forms, rate, section.repeat);
+    let forms = Forms::new(forms, rate, end);
     let forms = forms.map_err(|(number, error)| {
         wrong(match several {
             true => format!("its form {}: {error}", number + 1),
@@ -165,8 +166,12 @@ fn mesh(
     Ok((middle, forms))
 }
 
-/// The forms of an animation, from its start to its end.
-fn animated(model: &Model, name: &str, orientation: &Orientation) -> Result<Vec<Form>, String> {
+/// The forms of an animation, from its start to its very end, and how many are a second.
+fn animated(
+    model: &Model,
+    name: &str,
+    orientation: &Orientation,
+) -> Result<(f64, Vec<Form>), String> {
     let rig = model.rig.as_ref();
     let rig = rig.ok_or_else(|| "it has no animation".to_owned())?;
     let animation = rig.animation(name).ok_or_else(|| {
@@ -176,20 +181,25 @@ fn animated(model: &Model, name: &str, orientation: &Orientation) -> Result<Vec<
             suggestion(name, names)
         )
     })?;
-    let frames = (rig.animations[animation].length * ANIMATION_RATE).ceil() + 1.0;
-    if frames > MOST_FORMS as f64 {
+    let length = rig.animations[animation].length;
+    let steps = (length * ANIMATION_RATE).ceil();
+    if steps >= MOST_FORMS as f64 {
         return Err(format!(
-            "its animation lasts {:.1} s, and a body takes {:.1} s at most",
-            rig.animations[animation].length,
-            MOST_FORMS as f64 / ANIMATION_RATE
+            "its animation lasts {length:.1} s, and a body takes {:.1} s at most",
+            (MOST_FORMS - 1) as f64 / ANIMATION_RATE
         ));
     }
-    let form = |frame: u32| {
-        let pose = model.pose(Some(animation), f64::from(frame) / ANIMATION_RATE);
+    let rate = if steps > 0.0 {
+        steps / length
+    } else {
+        ANIMATION_RATE
+    };
+    let form = |step: u32| {
+        let pose = model.pose(Some(animation), f64::from(step) / rate);
         let shapes = pose.map(|pose| model.shapes(&pose));
         form(model, shapes.as_deref(), orientation)
     };
-    Ok((0..frames as u32).map(form).collect())
+    Ok((rate, (0..=steps as u32).map(form).collect()))
 }
 
 /// All meshes of a model as one, in these shapes or as the file has them.

@@ -197,7 +197,7 @@ impl Feel {
         let [root, middle, tip] = self.hold.unwrap_or(word.hold);
         let gamma = word.gamma / stiffness.whole.max(LEAST_STIFFNESS);
         Params {
-            material: Material::from_gamma(gamma, strand.length_m.max(1e-4)),
+            material: Material::from_gamma(gamma, strand.length_m.clamp(1e-4, LONGEST_M)),
             stiffness: stiffness.along(ALONG, LEAST_STIFFNESS),
             damping: (word.damping * damping).min(10.0),
             drag: word.drag * drag.whole,
@@ -212,6 +212,10 @@ impl Feel {
         }
     }
 }
+
+/// The longest hair that is as stiff for its length as its feel says, m: what is longer has hardly the unit that it should have, and the stiffness
+/// that it would need is no number to solve for.
+const LONGEST_M: f64 = 20.0;
 
 /// The least factor on a stiffness: one that differs from strand to strand may come to nothing.
 const LEAST_STIFFNESS: f64 = 0.001;

@@ -47,6 +47,20 @@ impl Below {
     }
 }
 
+impl Below {
+    /// Whether all that it moves is, at one time (seconds), where it is at another.
+    pub fn is_alike(&self, one: f64, other: f64) -> bool {
+        match self {
+            Self::Bone(bone) => {
+                let [(turn, moved), (other_turn, other_moved)] =
+                    [one, other].map(|time| bone.at(time));
+                turn.angle_between(other_turn) < 2e-4 && moved.abs_diff_eq(other_moved, 1e-4)
+            }
+            Self::Skeleton { skeleton, .. } => skeleton.at(one).is_alike(&skeleton.at(other)),
+        }
+    }
+}
+
 /// A bone as it moves the head.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Bone {

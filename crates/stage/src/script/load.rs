@@ -64,19 +64,35 @@ pub(crate) fn load(
     Ok(script)
 }
 
-/// Bodies of a script that goes round must, too.
+/// What animations move in a script that goes round must, too, and bodies.
 fn check_loop(script: &MotionScript) -> Result<(), PresetErrors> {
     let Some(period) = script.period.filter(|_| script.closes) else {
         return Ok(());
     };
-    let open = |body: &&Arc<bodies::Body>| !body.is_alike(0.0, period);
-    let mistake = |body: &Arc<bodies::Body>| -> Option<PresetError> {
-        let keys = script.body_keys.iter();
-        let key = keys
-            .rev()
-            .find(|key| body.section.name.as_deref() == Some(key.body()))?;
-        Some(key.open(period))
+    let at_loop = |what: String| {
+        let place = script.loop_place.clone()?;
+        let message = format!(
+            "loop: {what} is elsewhere after {period} s than at its start: let `period` be a whole number of times its length"
+        );
+        Some(PresetError { place, message })
     };
-    let open = script.bodies.iter().filter(open);
-    PresetErrors::report(open.filter_map(mistake).collect())
+    let mistake = |body: &Arc<bodies::Body>| -> Option<PresetError> {
+        let name = body.section.name.as_deref();
+        if !body.is_alike(0.0, period) {
+            let mut keys = script.body_keys.iter().rev();
+            return Some(keys.find(|key| name == Some(key.body()))?.open(period));
+        }
+        let comes_round = body.has_one_form(0.0, period);
+        let name = name.unwrap_or_default();
+        (!comes_round).then(|| at_loop(format!("the mesh of body `{name:.40}`")))?
+    };
+    let mut mistakes: Vec<PresetError> = script.bodies.iter().filter_map(mistake).collect();
+    if script
+        .below
+        .as_ref()
+        .is_some_and(|below| !below.is_alike(0.0, period))
+    {
+        mistakes.extend(at_loop("the animation that moves the head".to_owned()));
+    }
+    PresetErrors::report(mistakes)
 }

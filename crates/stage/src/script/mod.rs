@@ -44,6 +44,8 @@ pub(crate) struct MotionScript {
     pub has_wake: bool,
     /// Whether hair comes back to where it was when the script starts again; it has a period then.
     pub closes: bool,
+    /// Where it says so.
+    pub loop_place: Option<Place>,
     /// Bodies that the script itself lists, and the keys of those and of the preset's, as they are written.
     pub named_bodies: Vec<NamedBody>,
     pub body_keys: Vec<NamedKey>,

@@ -193,7 +193,7 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<MotionScript, PresetErrors
             format!("the motion needs `version: {VERSION}`, the version of its format"),
         );
     }
-    let top: ScriptFields = reader.section_of(&plain, "the motion");
+    let top: ScriptFields = reader.section_beside(&plain, "the motion", &LISTS);
     let mut script = MotionScript {
         period: Some(f64::from(top.period)).filter(|period| *period > 0.0),
         hold: top.hold.map(f64::from),
@@ -236,16 +236,17 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<MotionScript, PresetErrors
         );
     }
     if top.closes {
-        check_loop(&mut reader, &plain, &script);
+        let field = plain.iter().find(|field| field.name == "loop");
+        let place = field.map_or("", |field| field.name);
+        script.loop_place = Some(reader.place(place));
+        check_loop(&mut reader, place, &script);
     }
     reader.report()?;
     Ok(script)
 }
 
 /// Reports what keeps a script from going round.
-fn check_loop<'a>(reader: &mut Reader<'a>, plain: &[Field<'a>], script: &MotionScript) {
-    let field = plain.iter().find(|field| field.name == "loop");
-    let place = field.map_or("", |field| field.name);
+fn check_loop<'a>(reader: &mut Reader<'a>, place: &'a str, script: &MotionScript) {
     let Some(period) = script.period else {
         reader.error(
             place,
@@ -264,23 +265,49 @@ fn check_loop<'a>(reader: &mut Reader<'a>, plain: &[Field<'a>], script: &MotionS
             ),
         );
     }
-    let begin = script.head_at(0.0);
-    let end = script.head_before(period);
+    let [begin, end] = [script.head_before(0.0), script.head_before(period)];
     if !is_alike(begin, end) {
         reader.error(
             place,
             format!(
-                "loop: the head ends elsewhere than it begins: turned by {}, moved by {} where it was {} and {}; what turns and \
-                 stays needs another that turns it back, and a swing from 0 to the end a whole number of swings in {period} s \
-                 (a walk of two steps)",
+                "loop: the head ends elsewhere than it begins: turned by {}, moved by {} where it was {} and {}; {COMES_ROUND}",
                 shown(end.turn),
                 shown(end.shift),
                 shown(begin.turn),
                 shown(begin.shift)
             ),
         );
+        return;
+    }
+    let [begins, ends] = [[0.0, MOMENT], [period - MOMENT, period]].map(|moment| {
+        let [from, to] = moment.map(|time| script.head_before(time));
+        [to.turn - from.turn, to.shift - from.shift].map(|way| way / MOMENT)
+    });
+    let is_as_fast = |part: usize, least: f64| {
+        let [begin, end] = [begins[part], ends[part]];
+        begin.distance(end) <= least + 0.01 * begin.length().max(end.length())
+    };
+    if !is_as_fast(0, 1.0) || !is_as_fast(1, 0.01) {
+        reader.error(
+            place,
+            format!(
+                "loop: the head ends in another motion than it begins in: by {} degrees and {} head heights a second where it \
+                 was {} and {}; {COMES_ROUND}",
+                shown(ends[0]),
+                shown(ends[1]),
+                shown(begins[0]),
+                shown(begins[1])
+            ),
+        );
     }
 }
+
+/// Seconds over which speeds are measured.
+const MOMENT: f64 = 1e-5;
+
+/// What a loop asks of its moves.
+const COMES_ROUND: &str = "what turns and stays needs another that turns it back, and a swing goes from 0 to the end, a whole number of \
+                           swings in the period (a walk of two steps)";
 
 /// Whether two poses look the same: within a hundredth of a degree, and of a hundredth of a head height.
 fn is_alike(one: HeadPose, other: HeadPose) -> bool {
