@@ -198,7 +198,7 @@ pub(crate) struct BatchState {
     pub alone: Vec<Lane>,
     /// How much of what particles could be recalled by they are, in the last step, 0 to 1. Empty where nothing is recalled.
     pub recalled: Vec<Lane>,
-    /// For how long strands have moved by themselves while others pressed on them, or a body on those that are tied, in s: see [`super::unrest`].
+    /// For how long strands have moved by themselves while others pressed on them, or a body on those that are tied, or have rocked on a body, in s: see [`super::unrest`].
     pub restless: Lane,
     /// Where the tips were a step before, and their way in the step before that.
     pub tip_before: Vec3,

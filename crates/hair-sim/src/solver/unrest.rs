@@ -4,7 +4,8 @@
 //! plane that is most urgent, the next by another, and what is shoved to and fro would tremble for ever. So would strands that a tie gathers over a
 //! body. A strand that others press on, or a body where anchors hold it, and that has moved by itself for some seconds gives in: its locks part no more
 //! ([`super::locks::PATIENCE`]), and it sticks where it is on the head, the faster the longer it goes on, as hair does that has felted. What swings out
-//! has come to rest before that. Roots, air, bodies and anchors that move make it forget.
+//! has come to rest before that. What touches a body alone counts only while it turns back in every step or second one: it rocks about the particle that
+//! friction holds there. Roots, air, bodies and anchors that move make it forget.
 
 use crate::{
     forces::springs::Spring,
