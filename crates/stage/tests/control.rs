@@ -242,6 +242,35 @@ fn what_never_repeats_itself_is_blended() {
     assert!((now / rest - 1.0).abs() < 0.05, "{now} {rest}");
 }
 
+/// Winds blow in the world: a loop is made anew where its object is turned, and no other.
+#[test]
+fn a_loop_of_what_is_turned_is_another_one() {
+    for (moves, is_blown) in [("winds: [(speed: 3)]", true), (SWAYS, false)] {
+        let before = scene(
+            "",
+            &format!("(version: 1, period: 0.5, loop: true, {moves})"),
+            &[],
+        );
+        let object = before.objects()[0].placed(90.0, Vec3::ZERO);
+        let turned = before.with_object(0, object).unwrap();
+        let mut motion = Motion::new();
+        let first = at(&before, &mut motion, 0.25);
+        let then = at(&turned, &mut motion, 0.25);
+        assert_eq!(then, points(&turned, 0.25), "{moves}");
+        assert_eq!(farthest(&first, &then) > 1e-3, is_blown, "{moves}");
+    }
+}
+
+const SWAYS: &str = "moves: [(move: shake, length: 1000, angle: 10, rate: 2)]";
+
+/// What a body as large as bodies may be swallows comes out far away, and is simulated all the same.
+#[test]
+fn hair_longer_than_any_is_simulated() {
+    let script = "(version: 1, moves: [(move: turn, length: 0.1, angle: 20)], bodies: [(shape: sphere, radius: 1000)])";
+    let scene = scene("", script, &[]);
+    assert!(points(&scene, 0.1).iter().all(|point| point.is_finite()));
+}
+
 #[test]
 fn poses_are_held_on_twos_and_threes() {
     let plain = scene("", SHAKE, &[]);
