@@ -468,12 +468,12 @@ pub(crate) fn strands(
     if given.scale.is_none() {
         notes.extend(misfit(&hair.strands, mesh));
     }
-    notes.extend(pointless(&hair.strands));
+    notes.extend(without_length(&hair.strands));
     Ok(HairModel::read(hair, head))
 }
 
 /// A warning of strands of which all points are in one place, as nothing is drawn of them.
-fn pointless(strands: &Strands) -> Option<String> {
+fn without_length(strands: &Strands) -> Option<String> {
     let is_point = |strand: &[Vec3]| strand.iter().all(|point| *point == strand[0]);
     let found = strands.iter().filter(|strand| is_point(strand)).count();
     (found > 0).then(|| {

@@ -198,8 +198,10 @@ pub(crate) struct BatchState {
     pub alone: Vec<Lane>,
     /// How much of what particles could be recalled by they are, in the last step, 0 to 1. Empty where nothing is recalled.
     pub recalled: Vec<Lane>,
-    /// For how long strands have moved by themselves while others pressed on them, or a body on those that are tied, or have rocked on a body, in s: see [`super::unrest`].
+    /// For how long strands have moved by themselves while others pressed on them, or a body on those that are tied, in s: see [`super::unrest`].
     pub restless: Lane,
+    /// For how long they have rocked on a body, in s.
+    pub rocking: Lane,
     /// Where the tips were a step before, and their way in the step before that.
     pub tip_before: Vec3,
     pub tip_way: Vec3,
@@ -246,6 +248,7 @@ impl BatchState {
             recalled: Vec::new(),
             calm: Lane::ZERO,
             restless: Lane::ZERO,
+            rocking: Lane::ZERO,
             tip_before: Vec3::ZERO,
             tip_way: Vec3::ZERO,
             broken: Vec::new(),

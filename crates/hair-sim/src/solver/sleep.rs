@@ -28,7 +28,7 @@ const QUIET_TIME: f64 = 1.0;
 /// for minutes. What leaves a ball only after twice that time goes on being quiet: where many slip now and then they would hardly ever be quiet at once.
 const TREMBLING_WAY: f64 = 2.4e-5;
 const TREMBLING_TIME: f64 = 4.0;
-/// What has been restless for longer than the second of these, in s, is quiet within a ball of the first, in m, for as long as what trembles: where locks jam
+/// What has been restless, or has rocked on a body, for longer than the second of these, in s, is quiet within a ball of the first, in m, for as long as what trembles: where locks jam
 /// they shove each other about by some micrometres a step.
 const JAMMED_WAY: f64 = 2e-3;
 const JAMMED_TIME: f64 = 0.5;
@@ -197,7 +197,8 @@ pub(super) fn count_quiet(batch: &Batch, state: &mut BatchState, drive: &Drive, 
     let most = most * (TREMBLING_WAY / QUIET_WAY);
     let way = most.min(Lane::splat(TREMBLING_WAY)) * held * held;
     let way = is_free.pick(Lane::ZERO, way.min(Lane::splat(JAMMED_WAY)));
-    let jams = state.restless.gt(Lane::splat(JAMMED_TIME));
+    let longest = state.restless.max(state.rocking);
+    let jams = longest.gt(Lane::splat(JAMMED_TIME));
     let way = jams.pick(Lane::splat(JAMMED_WAY), way);
     // What went farther than all across the ball has left it: what is under way costs no more than this.
     let slow = active.and(gone.lt(way * way * 4.0));

@@ -4,7 +4,7 @@
 //! plane that is most urgent, the next by another, and what is shoved to and fro would tremble for ever. So would strands that a tie gathers over a
 //! body. A strand that others press on, or a body where anchors hold it, and that has moved by itself for some seconds gives in: its locks part no more
 //! ([`super::locks::PATIENCE`]), and it sticks where it is on the head, the faster the longer it goes on, as hair does that has felted. What swings out
-//! has come to rest before that. What touches a body alone counts only while it turns back in every step or second one: it rocks about the particle that
+//! has come to rest before that. So does a strand stick that rocks on a body, turning back in every step or every second one, about a particle that
 //! friction holds there. Roots, air, bodies and anchors that move make it forget.
 
 use crate::{
@@ -26,11 +26,11 @@ const MOVES: f64 = 1e-3;
 /// a second, and what is driven on hardly creeps after two.
 const STICKS: f64 = 5e3;
 
-/// What trembles on a body turns back in each step or in each second one. A step in which it doesn't takes away this share of one in which it does, and
+/// What rocks on a body turns back in each step or in each second one. A step in which it doesn't takes away this share of one in which it does, and
 /// what swings with a period of more than ten steps never counts.
 const GOES_ON: f64 = 0.25;
 
-/// Takes note of for how long the strands of `active` have been restless, and adds to the loads of a step what makes them stick.
+/// Takes note of for how long the strands of `active` have been restless or have rocked, and adds to the loads of a step what makes them stick.
 #[inline(always)]
 pub(super) fn calm_down(
     batch: &Batch,
@@ -39,53 +39,69 @@ pub(super) fn calm_down(
     (drive, root): (&Drive, &RootMotion),
     active: Mask,
 ) {
-    let tip = state.y.last().copied().unwrap_or(Vec3::ZERO);
-    let way = tip - state.tip_before;
-    let turned_back = way.dot(state.tip_way).lt(Lane::ZERO);
-    state.tip_before = Vec3::pick(active, tip, state.tip_before);
-    state.tip_way = Vec3::pick(active, way, state.tip_way);
-    let counts = active.pick(moved(batch, state, drive, turned_back), Lane::ZERO);
-    if counts == Lane::ZERO && state.restless == Lane::ZERO {
+    let turned_back = turned_back(state, active);
+    let [jams, rocks] =
+        moved(batch, state, drive, turned_back).map(|counts| active.pick(counts, Lane::ZERO));
+    if [jams, rocks, state.restless, state.rocking] == [Lane::ZERO; 4] {
         return;
     }
     let stirs = stirred(batch, state, (drive, root)) * (drive.dt / STIRS);
-    let restless = state.restless * (Lane::ONE + stirs).recip() + counts;
-    state.restless = active.pick(restless.max(Lane::ZERO), state.restless);
-    let over = (state.restless - Lane::splat(PATIENCE[0])).max(Lane::ZERO);
+    let left = (Lane::ONE + stirs).recip();
+    let restless = state.restless * left + jams;
+    state.restless = active.pick(restless, state.restless);
+    let rocking = (state.rocking * left + rocks).max(Lane::ZERO);
+    state.rocking = active.pick(rocking, state.rocking);
+    let longest = state.restless.max(state.rocking);
+    let over = (longest - Lane::splat(PATIENCE[0])).max(Lane::ZERO);
     if over.gt(Lane::ZERO).any() {
         let rate = over * over * over * over * STICKS;
         stick(batch, state, loads, (rate, root.turn_end.axes()), drive.dt);
     }
 }
 
-/// What counts of the step before as moved, in s, where others press on strands, or a body on those that are tied. Where a body presses on others, what
-/// trembles counts alone, and what goes on in its direction takes from that again: so does what swings for most of its time.
+/// The strands whose tips went the other way in the step before than in the one before that. Takes note of where tips are.
 #[inline(always)]
-fn moved(batch: &Batch, state: &BatchState, drive: &Drive, turned_back: Mask) -> Lane {
+fn turned_back(state: &mut BatchState, active: Mask) -> Mask {
+    let tip = state.y.last().copied().unwrap_or(Vec3::ZERO);
+    let way = tip - state.tip_before;
+    let turned_back = way.dot(state.tip_way).lt(Lane::ZERO);
+    state.tip_before = Vec3::pick(active, tip, state.tip_before);
+    state.tip_way = Vec3::pick(active, way, state.tip_way);
+    turned_back
+}
+
+/// What counts of the step before, in s: as moved, where others press on strands, or a body on those that are tied; and as rocked, where a body presses
+/// on any. Of the latter, until it sticks, what goes on takes away again.
+#[inline(always)]
+fn moved(batch: &Batch, state: &BatchState, drive: &Drive, turned_back: Mask) -> [Lane; 2] {
     let (bodies, others) = state.press.split_at(batch.count());
-    let patient = state.restless.lt(Lane::splat(PATIENCE[0]));
-    let goes_on = patient.pick(Lane::splat(-GOES_ON), Lane::ZERO);
-    let mut by_bodies = turned_back.pick(Lane::ONE, goes_on);
+    let mut tied = Lane::ZERO;
     for own in drive.anchors {
-        by_bodies[own.lane] = 1.0;
+        tied[own.lane] = 1.0;
     }
-    let mut held = Lane::ZERO;
+    let patient = state.rocking.lt(Lane::splat(PATIENCE[0]));
+    let goes_on = patient.pick(Lane::splat(-GOES_ON), Lane::ZERO);
+    let turns = turned_back.pick(Lane::ONE, goes_on);
+    let (mut held, mut rocks) = (Lane::ZERO, Lane::ZERO);
     for press in bodies {
-        held = press.gt(Lane::ZERO).pick(by_bodies, held);
+        let presses = press.gt(Lane::ZERO);
+        held = presses.pick(tied, held);
+        rocks = presses.pick(turns, rocks);
     }
     for press in others {
         held = press.gt(Lane::ZERO).pick(Lane::ONE, held);
     }
     // Goals that go through key shapes move strands themselves.
-    if held == Lane::ZERO || drive.surroundings.goal.is_some() {
-        return Lane::ZERO;
+    if [held, rocks] == [Lane::ZERO; 2] || drive.surroundings.goal.is_some() {
+        return [Lane::ZERO; 2];
     }
     let mut fastest = Lane::ZERO;
     for v in &state.v[..batch.count()] {
         fastest = fastest.max(v.length_squared());
     }
     let speed = fastest.sqrt();
-    held * speed * (speed + Lane::splat(MOVES)).recip() * drive.dt
+    let share = speed * (speed + Lane::splat(MOVES)).recip();
+    [held * share * drive.dt, rocks * share * drive.dt]
 }
 
 /// How fast the roots, the air at the tip, bodies and anchors go, together, in m/s.
@@ -234,6 +250,30 @@ mod tests {
         assert!(counts(&ball, &anchors) > 0.1);
         assert_eq!(counts(&ball, &[]), 0.0);
         assert_eq!(counts(&[], &anchors), 0.0);
+    }
+
+    /// What swings along a body turns back twice in a period, and goes on for all of the time between.
+    #[test]
+    fn what_swings_on_a_body_does_not_rock() {
+        let mut hair = hanging(0.0);
+        for (k, v) in hair.1.batches[0].v.iter_mut().enumerate() {
+            v.z[0] = 0.1 * (k + 1) as f64;
+        }
+        let surroundings = Surroundings {
+            gravity: DVec3::new(-5.0, -8.0, 0.0),
+            colliders: &[BALL],
+            ..Surroundings::default()
+        };
+        let (mut turns, mut longest) = (0, 0.0_f64);
+        for _ in 0..180 {
+            let before = hair.1.batches[0].tip_way.get(0);
+            step(&mut hair, &surroundings);
+            let state = &hair.1.batches[0];
+            turns += usize::from(state.tip_way.get(0).dot(before) < 0.0);
+            longest = longest.max(state.rocking[0]);
+        }
+        assert!(turns >= 4, "{turns}");
+        assert!(longest < 2.5 / 60.0, "{longest}");
     }
 
     /// A way of 0.1 m in a second, of whatever acts, leaves less than a half of the time, also where a body turns about its middle or changes its shape.

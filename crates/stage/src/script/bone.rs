@@ -45,9 +45,7 @@ impl Below {
             }
         }
     }
-}
 
-impl Below {
     /// Whether all that it moves is, at one time (seconds), where it is at another.
     pub fn is_alike(&self, one: f64, other: f64) -> bool {
         match self {
