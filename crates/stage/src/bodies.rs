@@ -67,6 +67,19 @@ impl Body {
         matches!(&self.own, Own::Mesh(forms) if forms.deforms())
     }
 
+    /// That its mesh has no inside, for those who listed it.
+    pub fn open_note(&self) -> Option<String> {
+        let Own::Mesh(forms) = &self.own else {
+            return None;
+        };
+        let file = self.section.file.as_deref().unwrap_or_default();
+        forms.begins_open().then(|| {
+            format!(
+                "bodies: the mesh of `{file}` is open, and hair is kept out of what a mesh closes in: close it, or give it a thickness"
+            )
+        })
+    }
+
     /// Whether it is, at one of the script's own times (seconds), where it is at the other; what changes by itself, nearly so.
     pub fn is_alike(&self, one: f64, other: f64) -> bool {
         let [one, other] = [one, other].map(|time| self.key_at(time));

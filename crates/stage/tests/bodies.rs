@@ -237,7 +237,17 @@ fn meshes_move_and_change_their_form() {
     );
     fs::write(turned.folder.path().join("wall.0004.obj"), wall(thick)).unwrap();
     assert_eq!(turned.checked(), "");
-    turned.scene().unwrap();
+    let notes = turned.scene().unwrap().notes().join("\n");
+    assert!(!notes.contains("open"), "{notes}");
+    // Without a side nothing is within it, which is noted.
+    let whole = wall(thick);
+    let without_a_side = whole.trim_end().rsplit_once('\n').unwrap().0;
+    fs::write(turned.folder.path().join("wall.0004.obj"), without_a_side).unwrap();
+    let notes = turned.scene().unwrap().notes().join("\n");
+    assert!(
+        notes.contains("bodies: the mesh of `wall.0004.obj` is open"),
+        "{notes}"
+    );
 }
 
 #[test]

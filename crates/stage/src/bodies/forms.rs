@@ -3,6 +3,8 @@
 use super::drawn::Surface;
 use glam::{DVec3, Vec3};
 use hair_sim::{GridError, SignedDistance};
+use mesh_io::Welded;
+use mesh_lines::{Beside, Topology};
 use std::sync::OnceLock;
 
 /// Cells on the longest side of a form: what is thinner than two of them is not felt.
@@ -73,6 +75,29 @@ impl Form {
         ]
     }
 
+    /// Whether it has holes that a point may be lost through: edges of one triangle alone, longer together than the form. Corners at one place are one.
+    pub fn is_open(&self) -> bool {
+        let triangles = self.triangles.iter();
+        let welded = Welded::from_corners(triangles.map(|t| t.map(|i| self.positions[i as usize])));
+        let Ok(topology) = Topology::new(&welded.positions, &welded.triangles) else {
+            return false;
+        };
+        let half_edges = 0..welded.triangles.len() as u32 * 3;
+        let border = half_edges.filter(|&edge| topology.beside(edge) == Beside::Border);
+        let length = |edge| {
+            let [from, to] = topology
+                .ends(edge)
+                .map(|end| welded.positions[end as usize]);
+            from.distance(to)
+        };
+        border.map(length).sum::<f32>() > self.longest_side()
+    }
+
+    fn longest_side(&self) -> f32 {
+        let [low, high] = self.bounds();
+        (high - low).max_element()
+    }
+
     /// Moves its middle and makes it larger.
     pub fn put(&mut self, from_middle: DVec3, turn: glam::DQuat, size: f64) {
         for position in &mut self.positions {
@@ -92,11 +117,8 @@ impl Forms {
     /// The number of the first one, from 0, that has no distances, and why.
     pub fn new(forms: Vec<Form>, rate: f64, end: End) -> Result<Self, (usize, GridError)> {
         // Of the largest form, so that none of them takes more cells.
-        let side = |form: &Form| {
-            let [low, high] = form.bounds();
-            f64::from((high - low).max_element())
-        };
-        let longest = forms.iter().map(side).fold(1e-6, f64::max);
+        let sides = forms.iter().map(Form::longest_side);
+        let longest = sides.map(f64::from).fold(1e-6, f64::max);
         let forms = Self {
             cell: longest / CELLS,
             forms,
@@ -112,6 +134,11 @@ impl Forms {
 
     pub fn deforms(&self) -> bool {
         self.forms.len() > 1
+    }
+
+    /// Whether its first form [is open](Form::is_open).
+    pub fn begins_open(&self) -> bool {
+        self.forms.first().is_some_and(Form::is_open)
     }
 
     /// The distances of a form.
@@ -238,6 +265,36 @@ mod tests {
         }
         let (positions, ..) = once.shape(0.25);
         assert!((positions[0].x + 0.15).abs() < 1e-6, "{}", positions[0]);
+    }
+
+    #[test]
+    fn what_lacks_a_side_is_open() {
+        assert!(!cube(0.1).is_open());
+        let mut open = cube(0.1);
+        open.triangles.truncate(10);
+        assert!(open.is_open());
+        // Each side with corners of its own, as files have it.
+        let apart = |cube: Form| {
+            let corners = cube.triangles.iter().flatten();
+            let positions: Vec<Vec3> = corners.map(|&i| cube.positions[i as usize]).collect();
+            let triangles = (0..cube.triangles.len() as u32).map(|t| [0, 1, 2].map(|k| 3 * t + k));
+            Form::new((positions.clone(), positions, triangles.collect()))
+        };
+        assert!(!apart(cube(0.1)).is_open());
+        // A hole that is small beside it does not matter.
+        let mut pricked = apart(cube(0.1));
+        let [a, b, c] = pricked.triangles.pop().unwrap();
+        let [a, b, c] = [a, b, c].map(|i| pricked.positions[i as usize]);
+        let inner = [a, b, c].map(|p| p.lerp((a + b + c) / 3.0, 0.9));
+        let first = pricked.positions.len() as u32;
+        pricked.positions.extend([a, b, c].into_iter().chain(inner));
+        for k in 0..3 {
+            let (from, to) = (first + k, first + (k + 1) % 3);
+            pricked
+                .triangles
+                .extend([[from, to, to + 3], [from, to + 3, from + 3]]);
+        }
+        assert!(!pricked.is_open());
     }
 
     #[test]

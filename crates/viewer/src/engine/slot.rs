@@ -5,8 +5,8 @@ use super::{Drawn, Facts, Look, Problem, Times, Wish};
 use effects::Registry;
 use effects::preset::PresetErrors;
 use stage::{
-    BodySection, CameraSection, Files, FrameMaker, MeshSection, Motion, ObjectSection, Preset,
-    Scene, Sections, StageError, Textures,
+    BodySection, CameraSection, DynamicsSection, Files, FrameMaker, MeshSection, Motion,
+    ObjectSection, Preset, Scene, Sections, StageError, Textures,
 };
 use std::fs;
 use std::path::PathBuf;
@@ -44,7 +44,7 @@ struct From {
     bodies: Vec<BodySection>,
     /// Those that layers name, which must be the hair's.
     zones: Vec<String>,
-    /// The names of lines and of what they are of, and those that layers draw.
+    /// The names of lines and of what they are of, and those of lines and meshes that layers draw.
     lines: Vec<[Option<String>; 2]>,
     texts: Vec<(PathBuf, Arc<str>)>,
     files: Vec<(PathBuf, Option<(u64, SystemTime)>)>,
@@ -220,15 +220,22 @@ impl From {
         let named = preset.files(files);
         let all = &preset.sections;
         Self {
-            // What else is in a preset is the look's, which is made anew; a bake is held against all that moves hair.
-            sections: Sections {
-                hair: all.hair.clone(),
-                head: all.head.clone(),
-                motion: all.motion.clone(),
-                ..match all.hair.bake {
-                    Some(_) => all.clone(),
-                    None => Sections::default(),
-                }
+            // What else is in a preset is the look's, which is made anew.
+            sections: match all.hair.bake {
+                // It is held against all that moves hair.
+                Some(_) => all.clone(),
+                None => Sections {
+                    hair: all.hair.clone(),
+                    head: all.head.clone(),
+                    motion: all.motion.clone(),
+                    // Hair that is styled in a body is moved out of it when it is read, as the body is at the first step.
+                    dynamics: DynamicsSection {
+                        distance: all.dynamics.distance,
+                        warm_up: all.dynamics.warm_up,
+                        ..DynamicsSection::default()
+                    },
+                    ..Sections::default()
+                },
             },
             objects: (preset.objects.iter())
                 .map(|object| object.section.clone())
@@ -244,11 +251,7 @@ impl From {
                 .collect(),
             lines: (preset.lines.iter())
                 .map(|lines| [&lines.section.name, &lines.section.of].map(Option::clone))
-                .chain(
-                    (preset.layers.iter())
-                        .filter(|layer| layer.effect.is_for_lines())
-                        .map(|layer| [None, layer.on.clone()]),
-                )
+                .chain(preset.layers.iter().map(|layer| [None, layer.on.clone()]))
                 .collect(),
             texts: (look.texts.iter())
                 .filter(|(path, _)| named.contains(path))

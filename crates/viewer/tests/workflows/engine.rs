@@ -140,6 +140,12 @@ fn meshes_move_as_they_are_edited() {
 }
 
 #[test]
+fn hair_styled_in_a_body_lies_as_far_from_it_as_is_edited() {
+    let ball = "bodies: [(at: (0.45, -0.2, 0.1), radius: 0.3)], dynamics: (distance: 0.5),";
+    assert_edits_are_seen(&with(ball), &[["distance: 0.5", "distance: 2"]]);
+}
+
+#[test]
 fn hair_is_not_loaded_again_for_a_colour() {
     let looks = Looks::new();
     let mut engine = Engine::start(Arc::new(inkstrand::builtin_effects()), || {});
@@ -267,19 +273,17 @@ fn a_still_scene_is_drawn_once_however_long_it_plays() {
 
 /// Hair and head stay loaded while layers are edited; but which zones there are is theirs to say.
 #[test]
-fn a_layer_of_no_zone_is_told_while_it_is_edited() {
+fn a_layer_of_nothing_is_told_while_it_is_edited() {
     let looks = Looks::new();
     let mut engine = Engine::start(Arc::new(inkstrand::builtin_effects()), || {});
-    let mut last_of = |text: &str| last_answer(&mut engine, &looks, text);
-    assert!(last_of(LOOK).problems.is_empty());
-    let told = last_of(&LOOK.replace(
-        "(effect: \"hair.base\"",
-        "(effect: \"hair.base\", zones: \"nowhere\"",
-    ));
-    let told = told
-        .problems
-        .first()
-        .expect("there is no such zone")
-        .to_string();
-    assert!(told.contains("no zone `nowhere`"), "{told}");
+    let mut told = |text: &str, from: &str, to: &str| {
+        assert!(last_answer(&mut engine, &looks, text).problems.is_empty());
+        let answer = last_answer(&mut engine, &looks, &edited(text, from, to));
+        let first = answer.problems.first();
+        first.expect("there is no such thing").to_string()
+    };
+    let of_zones = told(LOOK, "\"hair.base\"", "\"hair.base\", zones: \"nowhere\"");
+    assert!(of_zones.contains("no zone `nowhere`"), "{of_zones}");
+    let of_meshes = told(CUBES, "on: \"*\"", "on: \"nowhere\"");
+    assert!(of_meshes.contains("`nowhere`"), "{of_meshes}");
 }
