@@ -26,6 +26,7 @@ mod names;
 mod neck;
 mod numbered;
 mod object;
+mod once;
 mod painted;
 mod part;
 mod pictures;

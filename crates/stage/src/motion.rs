@@ -346,7 +346,7 @@ impl ObjectMotion {
         Dynamics::new(
             hair,
             &sizes,
-            object.body_mesh(),
+            object.bodies().clone(),
             &look.sections.dynamics,
             object.script().hold,
             fps,

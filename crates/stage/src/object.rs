@@ -2,7 +2,7 @@
 
 use crate::bake;
 use crate::closed;
-use crate::dynamics::BodyMesh;
+use crate::dynamics::{Bodies, BodyMesh};
 use crate::files::{Files, StageError};
 use crate::hair::HairModel;
 use crate::head::{self, HeadModel};
@@ -11,6 +11,7 @@ use crate::lines;
 use crate::load::{self, ReadHead};
 use crate::look::Look;
 use crate::neck::{Neck, pivot, rigid};
+use crate::once::once;
 use crate::placement::Placement;
 use crate::preset::Preset;
 use crate::script::{self, HeadPose, MotionScript};
@@ -18,7 +19,7 @@ use crate::zones;
 use glam::{DQuat, DVec3, Vec3};
 use rayon::prelude::*;
 use render::{Brush, Head, StrandInfo};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use stroke_path::{Coarseness, Cut, Detail};
 
 /// How far the pieces of a strand that curls go on beyond where they meet, in parts of its full radius.
@@ -36,6 +37,8 @@ pub struct Object {
     /// The look as it was given, and as it is on this hair.
     given_look: Arc<Look>,
     look: Arc<Look>,
+    /// What hair cannot enter, once it moves.
+    bodies: Arc<OnceLock<Arc<Bodies>>>,
     /// What each strand's path is like.
     shapes: Arc<Vec<PathShape>>,
     placement: Placement,
@@ -116,6 +119,7 @@ impl Object {
             bare_head: head,
             hair: Arc::new(hair),
             script: Arc::new(script),
+            bodies: Arc::default(),
             given_look,
             look,
             placement: Placement::default(),
@@ -162,6 +166,10 @@ impl Object {
             script: match self.script.skeleton() {
                 Some(_) => Arc::new(self.script.with_hair(&hair)),
                 None => self.script.clone(),
+            },
+            bodies: match hair.head == self.hair.head {
+                true => self.bodies.clone(),
+                false => Arc::default(),
             },
             hair: Arc::new(hair),
             ..self.clone()
@@ -223,6 +231,13 @@ impl Object {
         Some(BodyMesh {
             mesh: head.body.as_deref().unwrap_or(&head.mesh),
             has_pieces: head.body.is_some(),
+        })
+    }
+
+    /// What hair cannot enter, made when it is first asked for.
+    pub(crate) fn bodies(&self) -> &Arc<Bodies> {
+        once(&self.bodies, || {
+            Arc::new(Bodies::new(self.body_mesh(), self.hair.head))
         })
     }
 
@@ -328,5 +343,36 @@ fn coarseness(hair: &HairModel) -> Coarseness {
     Coarseness {
         apart: (layers / DENSE).max(many).clamp(1.0, COARSEST),
         error: many.clamp(1.0, COARSEST),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dynamics::together::scene;
+
+    #[test]
+    fn what_hair_cannot_enter_is_made_once_for_a_head() {
+        let scene = scene("pixie", "head-turn");
+        let object = &scene.objects()[0];
+        let bodies = object.bodies();
+        let mut lighter = Look::clone(object.look());
+        lighter.sections.dynamics.gravity *= 0.5;
+        let other_hair = || {
+            let head = object.bare_head.as_deref();
+            HairModel::new(object.hair().file.strands.clone(), head).unwrap()
+        };
+        let same = [
+            object.placed(30.0, Vec3::X),
+            object.with_look(lighter).unwrap(),
+            object.with_hair(other_hair()).unwrap(),
+        ];
+        for same in same {
+            assert!(Arc::ptr_eq(same.bodies(), bodies));
+        }
+        let mut larger = other_hair();
+        larger.head.height_m *= 1.5;
+        let larger = object.with_hair(larger).unwrap();
+        assert!(!Arc::ptr_eq(larger.bodies(), bodies));
     }
 }

@@ -1,6 +1,7 @@
 //! The forms that a body's mesh takes in time, and their distances.
 
 use super::drawn::Surface;
+use crate::once::once;
 use glam::{DVec3, Vec3};
 use hair_sim::{GridError, SignedDistance};
 use mesh_io::Welded;
@@ -144,7 +145,7 @@ impl Forms {
     /// The distances of a form.
     pub fn grid(&self, form: usize) -> &SignedDistance {
         let form = &self.forms[form];
-        form.grid.get_or_init(|| {
+        once(&form.grid, || {
             SignedDistance::new(&form.positions, &form.triangles, self.cell)
                 .expect("forms are checked when they are read")
         })

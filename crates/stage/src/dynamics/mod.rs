@@ -27,8 +27,8 @@ use crate::neck::{pivot, rigid};
 use crate::placement::Placement;
 use crate::posture::Posture;
 use crate::script::HeadPose;
-pub(crate) use bodies::BodyMesh;
-use bodies::{Bodies, GAP_M};
+use bodies::GAP_M;
+pub(crate) use bodies::{Bodies, BodyMesh};
 use carried::Carried;
 pub(crate) use feel::ZoneDynamics;
 use feel::{Feel, Strand};
@@ -43,6 +43,7 @@ use rayon::prelude::*;
 use render::Head;
 use running::{Run, Running};
 use std::ops::Range;
+use std::sync::Arc;
 use ties::Ties;
 pub(crate) use ties::turn_of;
 
@@ -104,7 +105,7 @@ pub(crate) struct Dynamics {
     ties: Ties,
     /// Whether all strands slept in the last step. What is looked at between two steps doesn't count.
     is_asleep: bool,
-    bodies: Bodies,
+    bodies: Arc<Bodies>,
     head: Head,
     placement: Placement,
     gravity: DVec3,
@@ -160,7 +161,7 @@ fn part_of_frame(frame: f64, longest: f64) -> f64 {
 }
 
 impl Dynamics {
-    /// The dynamics of hair whose strands have these sizes (1/300 head heights), on a head of this mesh. `hold` is
+    /// The dynamics of hair whose strands have these sizes (1/300 head heights), among these bodies. `hold` is
     /// the pull to its key shapes, where it has some.
     ///
     /// # Errors
@@ -169,7 +170,7 @@ impl Dynamics {
     pub fn new(
         hair: &HairModel,
         sizes: &[f32],
-        mesh: Option<BodyMesh>,
+        bodies: Arc<Bodies>,
         section: &DynamicsSection,
         hold: [f64; 3],
         fps: f32,
@@ -242,7 +243,7 @@ impl Dynamics {
         Ok(Self {
             on_head: (0..moves.len()).filter(|&point| !moves[point]).collect(),
             gaps: Vec::new(),
-            bodies: Bodies::new(mesh, hair.head),
+            bodies,
             ties,
             is_asleep: false,
             shapes: hair.shapes.clone(),
