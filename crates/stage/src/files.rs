@@ -1,5 +1,6 @@
 //! What the caller gives a scene beside the preset, and why there is none.
 
+use crate::heads::Heads;
 use crate::textures::Textures;
 use effects::preset::nearest;
 use hair_io::{MOST_OF_TEXT, ReadError};
@@ -25,6 +26,8 @@ pub struct Files {
     pub texts: BTreeMap<PathBuf, Arc<str>>,
     /// Pictures of textures that were read, for whoever makes many looks: copies share them.
     pub textures: Textures,
+    /// Heads that were made, for whoever loads many scenes: copies share them.
+    pub heads: Heads,
 }
 
 impl Files {

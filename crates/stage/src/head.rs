@@ -8,6 +8,7 @@ mod seen;
 pub(crate) use paint::HeadPaint;
 pub(crate) use seen::{MESHES, painted, surfaces, worn};
 
+use crate::dynamics::BodyMesh;
 use crate::hair::head_of;
 use crate::painted::{Moving, PaintedMesh};
 use crate::scalp;
@@ -55,6 +56,14 @@ pub struct HeadModel {
 }
 
 impl HeadModel {
+    /// Its shape as it was given, however it is painted, which hair cannot enter: but for what a skeleton moves by itself.
+    pub(crate) fn body_mesh(&self) -> BodyMesh<'_> {
+        BodyMesh {
+            mesh: self.body.as_deref().unwrap_or(&self.mesh),
+            has_pieces: self.body.is_some(),
+        }
+    }
+
     /// The head's middle and height, where `roots` grow on it.
     pub(crate) fn frame(&self, roots: &[Vec3]) -> Head {
         let find = || head_of(HeadFrame::find(Some(&self.mesh), roots));

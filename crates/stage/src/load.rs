@@ -89,7 +89,7 @@ pub(crate) fn head(
         let head = match section.shape {
             HeadShape::None => HeadModel::none(),
             HeadShape::Bust => HeadModel::bust(),
-            HeadShape::Figure => HeadModel::figure(&figure(section)),
+            HeadShape::Figure => files.heads.figure(figure(section)),
         };
         let is_none = section.shape == HeadShape::None;
         let model = match (is_none, preset.meshes.is_empty()) {

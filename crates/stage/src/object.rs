@@ -2,10 +2,11 @@
 
 use crate::bake;
 use crate::closed;
-use crate::dynamics::{Bodies, BodyMesh};
+use crate::dynamics::Bodies;
 use crate::files::{Files, StageError};
 use crate::hair::HairModel;
 use crate::head::{self, HeadModel};
+use crate::heads::SharedBodies;
 use crate::hem::{self, Beside};
 use crate::lines;
 use crate::load::{self, ReadHead};
@@ -19,7 +20,7 @@ use crate::zones;
 use glam::{DQuat, DVec3, Vec3};
 use rayon::prelude::*;
 use render::{Brush, Head, StrandInfo};
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 use stroke_path::{Coarseness, Cut, Detail};
 
 /// How far the pieces of a strand that curls go on beyond where they meet, in parts of its full radius.
@@ -38,7 +39,7 @@ pub struct Object {
     given_look: Arc<Look>,
     look: Arc<Look>,
     /// What hair cannot enter, once it moves.
-    bodies: Arc<OnceLock<Arc<Bodies>>>,
+    bodies: SharedBodies,
     /// What each strand's path is like.
     shapes: Arc<Vec<PathShape>>,
     placement: Placement,
@@ -99,7 +100,11 @@ impl Object {
         head::layers::check(&preset.layers, head.as_ref(), wears_ties, is_given, notes)?;
         let (listed, layers) = (&preset.lines, &preset.layers);
         lines::check(listed, layers, head.as_ref(), wears_ties, is_given, notes)?;
-        Self::of(hair, head, look, script)
+        let mut object = Self::of(hair, head, look, script)?;
+        if let Some(head) = &object.bare_head {
+            object.bodies = files.heads.bodies(head.clone(), object.hair.head);
+        }
+        Ok(object)
     }
 
     fn of(
@@ -119,7 +124,7 @@ impl Object {
             bare_head: head,
             hair: Arc::new(hair),
             script: Arc::new(script),
-            bodies: Arc::default(),
+            bodies: SharedBodies::default(),
             given_look,
             look,
             placement: Placement::default(),
@@ -169,7 +174,7 @@ impl Object {
             },
             bodies: match hair.head == self.hair.head {
                 true => self.bodies.clone(),
-                false => Arc::default(),
+                false => SharedBodies::default(),
             },
             hair: Arc::new(hair),
             ..self.clone()
@@ -225,19 +230,16 @@ impl Object {
         rigid(pose, self.hair.head, self.pivot())
     }
 
-    /// The head's shape as it was given, however it is painted, which hair cannot enter: but for what a skeleton moves by itself.
-    pub(crate) fn body_mesh(&self) -> Option<BodyMesh<'_>> {
-        let head = self.bare_head.as_deref()?;
-        Some(BodyMesh {
-            mesh: head.body.as_deref().unwrap_or(&head.mesh),
-            has_pieces: head.body.is_some(),
-        })
+    /// The head as it was given.
+    pub(crate) fn bare_head(&self) -> Option<&HeadModel> {
+        self.bare_head.as_deref()
     }
 
     /// What hair cannot enter, made when it is first asked for.
     pub(crate) fn bodies(&self) -> &Arc<Bodies> {
         once(&self.bodies, || {
-            Arc::new(Bodies::new(self.body_mesh(), self.hair.head))
+            let mesh = self.bare_head().map(HeadModel::body_mesh);
+            Arc::new(Bodies::new(mesh, self.hair.head))
         })
     }
 

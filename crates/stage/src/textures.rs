@@ -1,6 +1,7 @@
 //! Files of textures: PNG pictures that layers' parameters name.
 
 use crate::files::{Files, StageError};
+use crate::kept::Kept;
 use effects::preset::{LayerSpec, Place};
 use effects::{BrushSection, BrushTexture, Image, Layer, Texture, Values};
 use hair_io::read_bytes;
@@ -18,16 +19,10 @@ const MOST_BYTES: u64 = 256 << 20;
 #[derive(Clone, Default)]
 pub struct Textures {
     known: Arc<Mutex<Known>>,
-    brushes: Arc<Mutex<Brushes>>,
+    brushes: Kept<BrushSection, Option<Arc<BrushTexture>>, 16>,
 }
 
 type Known = HashMap<PathBuf, (Stamp, Arc<Image>)>;
-
-/// The newest last.
-type Brushes = Vec<(BrushSection, Arc<BrushTexture>)>;
-
-/// Brushes that are kept: while one is edited, each edit makes another.
-const MOST_BRUSHES: usize = 16;
 
 /// A file's size and date.
 type Stamp = (u64, Option<SystemTime>);
@@ -58,16 +53,9 @@ impl Textures {
 
     /// What the section's tool leaves, made once.
     fn tool(&self, section: &BrushSection) -> Option<Arc<BrushTexture>> {
-        let mut brushes = self.brushes.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, brush)) = brushes.iter().find(|(made_of, _)| made_of == section) {
-            return Some(brush.clone());
-        }
-        let brush = Arc::new(BrushTexture::of_tool(section)?);
-        if brushes.len() >= MOST_BRUSHES {
-            brushes.remove(0);
-        }
-        brushes.push((section.clone(), brush.clone()));
-        Some(brush)
+        self.brushes.get(section.clone(), |section| {
+            BrushTexture::of_tool(section).map(Arc::new)
+        })
     }
 
     /// A layer's brush, if it has one.

@@ -18,7 +18,7 @@ const BODY_CELL: f64 = 1.0 / 42.0;
 pub(super) const GAP_M: f32 = 1.4e-3;
 
 /// The shape of a head and what is below.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 pub(crate) struct BodyMesh<'m> {
     pub mesh: &'m Mesh,
     /// Whether it may be of several pieces, as a character's is: hair, skin and clothes.

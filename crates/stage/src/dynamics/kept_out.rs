@@ -174,7 +174,7 @@ fn hair_is_kept_out_of_head_and_shoulders_in_looks_and_motions() {
                 continue;
             }
             let object = &scene.objects()[0];
-            let mesh = object.body_mesh().unwrap().mesh;
+            let mesh = object.bare_head().unwrap().body_mesh().mesh;
             let truth = match truths.iter().position(|truth| truth.mesh == *mesh) {
                 Some(known) => &truths[known],
                 None => {

@@ -137,7 +137,7 @@ impl<'r> Preset<'r> {
             let index = match known {
                 Some(index) => index,
                 None => {
-                    loaded.push(self.load_object(path, named, notes)?);
+                    loaded.push(self.load_object(path, named, files, notes)?);
                     loaded.len() - 1
                 }
             };
@@ -155,10 +155,15 @@ impl<'r> Preset<'r> {
         &self,
         path: PathBuf,
         named: &NamedObject,
+        files: &Files,
         notes: &mut Vec<String>,
     ) -> Result<Loaded<'r>, StageError> {
         let preset = self.read_object(&path, named)?;
-        let files = beside(&path);
+        let files = Files {
+            textures: files.textures.clone(),
+            heads: files.heads.clone(),
+            ..beside(&path)
+        };
         preset.check_files(&files)?;
         let first = notes.len();
         let look = Arc::new(Look::new(&preset, &files)?);

@@ -5,7 +5,7 @@ use super::{Drawn, Facts, Look, Problem, Times, Wish};
 use effects::Registry;
 use effects::preset::PresetErrors;
 use stage::{
-    BodySection, CameraSection, DynamicsSection, Files, FrameMaker, MeshSection, Motion,
+    BodySection, CameraSection, DynamicsSection, Files, FrameMaker, Heads, MeshSection, Motion,
     ObjectSection, Preset, Scene, Sections, StageError, Textures,
 };
 use std::fs;
@@ -23,6 +23,7 @@ pub(super) struct Slot<'r> {
     motion: Motion,
     frames: FrameMaker,
     textures: Textures,
+    heads: Heads,
     /// The last picture, and the backend that was asked for.
     last: Option<(Backend, Drawn)>,
 }
@@ -60,6 +61,7 @@ impl<'r> Slot<'r> {
             motion: Motion::new(),
             frames: FrameMaker::new(),
             textures: Textures::default(),
+            heads: Heads::default(),
             last: None,
         }
     }
@@ -88,6 +90,7 @@ impl<'r> Slot<'r> {
             preset_folder: look.folder.clone(),
             texts: look.texts.clone(),
             textures: self.textures.clone(),
+            heads: self.heads.clone(),
             ..Files::default()
         };
         let layers = preset
