@@ -21,8 +21,8 @@ pub enum DynamicsError {
     /// A step takes time.
     #[error("a step of {0} s: it must be from 1e-6 to 10 s")]
     Step(f64),
-    /// Numbers of the scene are finite.
-    #[error("the scene's {0} is not finite")]
+    /// Numbers of the scene are finite, rotations and axes of unit length, radii no less than 0.
+    #[error("the scene's {0} is not finite, or its rotation, axis or radius invalid")]
     Surroundings(&'static str),
     /// An anchor's stiffness has a range.
     #[error("anchor {anchor}: its stiffness is {stiffness}, and must be from 0 to 1e9 1/s^2")]
@@ -60,6 +60,9 @@ pub enum DynamicsError {
         /// How many points there are.
         expected: usize,
     },
+    /// Strands that act on each other are told apart.
+    #[error("two strands have the id {0}: strands that act on each other need ids of their own")]
+    SameId(u32),
     /// A state belongs to the strands that it was made with.
     #[error("the state is not of these strands and their parameters")]
     State,

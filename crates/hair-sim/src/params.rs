@@ -196,8 +196,16 @@ impl Params {
     ///
     /// That hangs on frequency and damping alone: TR-BDF2 lags by 0.04 radians times the cube of the angle that a mode goes through in a
     /// step. Its amplitude is off by less.
+    ///
+    /// # Panics
+    ///
+    /// When the length is not above 0, or a number not finite.
     #[must_use]
     pub fn longest_step(&self, length: f64, gravity: f64) -> f64 {
+        assert!(
+            length > 0.0 && length.is_finite() && gravity.is_finite(),
+            "a strand of {length} m, gravity of {gravity} m/s^2"
+        );
         // Of a strand that is clamped and hangs: Euler's beam and Bernoulli's chain, together within 2 % at any Gamma. The stiffness counts
         // where the mode bends, near the root; a goal where it moves, near the tip.
         let bending = self.material.bending() * self.stiffness.at(0.3);

@@ -29,4 +29,10 @@ impl Pose {
     pub(crate) fn is_finite(&self) -> bool {
         self.rotation.is_finite() && self.translation.is_finite()
     }
+
+    /// Whether it is finite, and its rotation of unit length.
+    pub(crate) fn is_rigid(&self) -> bool {
+        let off = self.rotation.length_squared() - 1.0;
+        off.abs() <= 1e-3 && self.translation.is_finite()
+    }
 }

@@ -186,7 +186,7 @@ impl Solver {
     ///
     /// # Errors
     ///
-    /// When a parameter is out of its range.
+    /// When a parameter is out of its range, or two strands of which some keep out of each other have one id.
     pub fn with(
         rest: &Strands,
         params: impl Fn(usize) -> Params,
@@ -212,6 +212,10 @@ impl Solver {
         }
 
         let meets = strands.iter().any(|strand| strand.1.lock_radius > 0.0);
+        let ids: Vec<u32> = (0..rest.len()).map(|i| rest.id(i)).collect();
+        if meets {
+            check_ids(&ids)?;
+        }
         // Strands of one kind and like length together; the order is fixed by the strands alone.
         let kind = |i: usize| strands[i].0.is_straight(&strands[i].1);
         let mut order: Vec<usize> = (0..strands.len()).collect();
@@ -223,7 +227,7 @@ impl Solver {
             places: vec![(0, 0); strands.len()],
             points: rest.iter().map(<[Vec3]>::len).collect(),
             first_points: (0..rest.len()).map(|i| rest.point_range(i).start).collect(),
-            ids: (0..rest.len()).map(|i| rest.id(i)).collect(),
+            ids,
             have_links: rest.iter().all(|points| points.len() > 1),
             interaction: None,
             locks: None,
@@ -289,10 +293,11 @@ impl Solver {
     ///
     /// # Errors
     ///
-    /// When a number is out of its range, or the state is not of these strands.
+    /// When a number is out of its range, two strands have one id, or the state is not of these strands. What was so before stays so then.
     pub fn interact(&mut self, state: &mut State, mutual: &Mutual) -> Result<(), DynamicsError> {
-        self.interaction = None;
-        self.check(state, &Surroundings::default(), 1.0)?;
+        // Of a state from before what another interaction broke doesn't count.
+        self.check_places(state)?;
+        check_ids(&self.ids)?;
         if let Some((name, value, least, most)) = mutual.out_of_range() {
             return Err(DynamicsError::Mutual {
                 name,
@@ -462,11 +467,22 @@ impl Solver {
 
     /// Takes note of how deep strands are in bodies as they lie in `state`: so deep they may stay there. Where it isn't asked for, that is as deep
     /// as they are when the first step with bodies begins, wherever roots and bodies have gone until then.
-    pub fn settle(&self, state: &mut State, colliders: &[Collider]) {
+    ///
+    /// # Errors
+    ///
+    /// When a body or the state is invalid. The state is unchanged then.
+    pub fn settle(&self, state: &mut State, colliders: &[Collider]) -> Result<(), DynamicsError> {
+        let surroundings = Surroundings {
+            colliders,
+            ..Surroundings::default()
+        };
+        surroundings.check(1.0, self.len(), self.points.iter().sum())?;
+        self.check_places(state)?;
         for (batch, state) in self.batches.iter().zip(&mut state.batches) {
             settle_in(batch, state, colliders);
             state.skin_known = true;
         }
+        Ok(())
     }
 
     /// Puts the roots elsewhere at once: shape and motion are carried along, as if nothing had happened.
@@ -497,17 +513,25 @@ impl Solver {
         dt: f64,
     ) -> Result<(), DynamicsError> {
         surroundings.check(dt, self.len(), self.points.iter().sum())?;
+        self.check_places(state)?;
+        let fits = self.interaction.as_ref().is_none_or(|all| {
+            (all.pairs.iter().zip(&state.batches)).all(|(p, s)| s.broken.len() == p.len())
+        });
+        match fits {
+            true => Ok(()),
+            false => Err(DynamicsError::State),
+        }
+    }
+
+    /// Whether a state is of these strands, however they act on each other.
+    fn check_places(&self, state: &State) -> Result<(), DynamicsError> {
         let fits = state.layout == layout(&self.places)
             && state.batches.len() == self.batches.len()
             && (self.batches.iter().zip(&state.batches))
-                .all(|(b, s)| s.has_lengths(b) && b.does_with(s.frames.len()))
-            && self.interaction.as_ref().is_none_or(|all| {
-                (all.pairs.iter().zip(&state.batches)).all(|(p, s)| s.broken.len() == p.len())
-            });
-        if fits {
-            Ok(())
-        } else {
-            Err(DynamicsError::State)
+                .all(|(b, s)| s.has_lengths(b) && b.does_with(s.frames.len()));
+        match fits {
+            true => Ok(()),
+            false => Err(DynamicsError::State),
         }
     }
 
@@ -575,6 +599,16 @@ impl Solver {
         let (batch, lane) = self.places[strand];
         let mut frames = Rods::frames_one_by_one(&self.batches[batch], &state.batches[batch]);
         (1..self.points[strand]).map(move |_| frames().get(lane))
+    }
+}
+
+/// Whether every strand has an id of its own: where strands meet, ids decide in place of their order.
+fn check_ids(ids: &[u32]) -> Result<(), DynamicsError> {
+    let mut sorted = ids.to_vec();
+    sorted.sort_unstable();
+    match sorted.windows(2).find(|pair| pair[0] == pair[1]) {
+        Some(pair) => Err(DynamicsError::SameId(pair[0])),
+        None => Ok(()),
     }
 }
 

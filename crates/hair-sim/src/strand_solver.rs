@@ -38,7 +38,17 @@ pub trait StrandSolver {
     fn teleport(&self, state: &mut Self::State, to: Roots) -> Result<(), DynamicsError>;
 
     /// Takes note of how deep strands are in bodies as they lie in `state`: so deep they may stay there. Solvers that let none stay don't.
-    fn settle(&self, _state: &mut Self::State, _colliders: &[Collider]) {}
+    ///
+    /// # Errors
+    ///
+    /// When a body or the state is invalid. The state is unchanged then.
+    fn settle(
+        &self,
+        _state: &mut Self::State,
+        _colliders: &[Collider],
+    ) -> Result<(), DynamicsError> {
+        Ok(())
+    }
 
     /// The points of a strand in the world, root first, in m.
     ///
@@ -71,8 +81,8 @@ impl StrandSolver for Solver {
         Self::teleport(self, state, to)
     }
 
-    fn settle(&self, state: &mut State, colliders: &[Collider]) {
-        Self::settle(self, state, colliders);
+    fn settle(&self, state: &mut State, colliders: &[Collider]) -> Result<(), DynamicsError> {
+        Self::settle(self, state, colliders)
     }
 
     fn points(&self, state: &State, strand: usize) -> impl ExactSizeIterator<Item = DVec3> {

@@ -127,7 +127,13 @@ impl Strands {
     }
 
     /// Sets the clump size of strand `index` (1/300 of the head's height).
+    ///
+    /// # Panics
+    ///
+    /// When there is no such strand, or the size is not finite or below 0.
     pub fn set_size(&mut self, index: usize, size: Option<f32>) {
+        let is_valid = size.is_none_or(|size| size.is_finite() && size >= 0.0);
+        assert!(is_valid, "a clump of size {size:?}");
         self.sizes[index] = size;
     }
 

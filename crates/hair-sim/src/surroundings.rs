@@ -65,8 +65,8 @@ impl Acceleration {
 /// Of an anchor, 1/s^2.
 const MOST_STIFFNESS: f64 = 1e9;
 
-/// A place in the world that one point of a strand is pulled to, damped critically. A strand that lies on a body and moves for 2 s while its
-/// anchors and all else rest begins to stick to the head. Solvers of `compare` know none.
+/// A place in the world that one point of a strand is pulled to, damped critically. A strand that lies on a body and goes to and fro for 2 s while
+/// its anchors and all else rest begins to stick to the head. Solvers of `compare` know none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Anchor {
     /// The strand, by its index.
@@ -141,10 +141,10 @@ impl Surroundings<'_> {
         if !(self.wind.is_finite() && self.wind_before.is_none_or(|wind| wind.is_finite())) {
             return Err(DynamicsError::Surroundings("wind"));
         }
-        if !self.streams.iter().all(Stream::is_finite) {
+        if !self.streams.iter().all(Stream::is_valid) {
             return Err(DynamicsError::Surroundings("stream"));
         }
-        if !self.colliders.iter().all(Collider::is_finite) {
+        if !self.colliders.iter().all(Collider::is_valid) {
             return Err(DynamicsError::Surroundings("collider"));
         }
         for (index, anchor) in self.anchors.iter().enumerate() {
@@ -165,11 +165,7 @@ impl Surroundings<'_> {
             });
         }
         match self.roots {
-            Roots::Head(pose)
-                if !pose.is_finite() || (pose.rotation.length_squared() - 1.0).abs() > 1e-3 =>
-            {
-                Err(DynamicsError::Surroundings("head"))
-            }
+            Roots::Head(pose) if !pose.is_rigid() => Err(DynamicsError::Surroundings("head")),
             Roots::Each(poses) if poses.len() != strands => Err(DynamicsError::Poses {
                 found: poses.len(),
                 expected: strands,

@@ -423,6 +423,10 @@ pub(crate) fn held_time(section: &MotionSection, fps: f32, time: f64) -> f64 {
     // What a time in single precision can tell from a frame's is no earlier one.
     let slack = time.abs() * f64::from(f32::EPSILON) * fps + 1e-6;
     let frame = ((time * fps + slack) / on).floor() * on;
-    // As precise as the time of a frame that a program asks for.
-    f64::from(frame as f32 / fps as f32).min(time)
+    time_of_frame(frame, fps).min(time)
+}
+
+/// The time of a frame, in seconds, as precise as programs ask for it: what is worked out from a time in double precision may be another picture.
+pub(crate) fn time_of_frame(frame: f64, fps: f64) -> f64 {
+    f64::from(frame as f32 / fps as f32)
 }

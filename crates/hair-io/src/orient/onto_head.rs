@@ -12,6 +12,8 @@ use crate::sphere::{Sphere, without_outliers};
 
 /// Scalp radii in a head's height.
 const RADII_IN_HEIGHT: f64 = 2.6;
+/// Of a mesh that far from a head's middle is the head, in head heights: what of a body lies below is none, and hair would fit it as well in another unit.
+const REACH: f32 = 0.8;
 /// Roots lie on a head where their mean distance from it is below this, in radii of the scalp. Coarse
 /// meshes and lifted roots stay below, hair beside the head or of another size doesn't.
 const ON_HEAD: f64 = 0.2;
@@ -26,7 +28,7 @@ pub(super) fn place(
     given: &Given,
 ) -> Orientation {
     let frame = HeadFrame::find(Some(head), &[]);
-    let surface = Surface::new(head);
+    let surface = Surface::of_head(head, &frame);
     let scalp = f64::from(frame.height) / RADII_IN_HEIGHT;
     let fitting = as_scale(scalp / sphere.radius);
     let unit = scale_to(sphere.radius, scalp, 1.0);
@@ -110,16 +112,18 @@ fn settle(
     placed.offset
 }
 
-/// A mesh's surface as its vertices and the centres of its triangles.
+/// A head's surface as its vertices and the centres of its triangles.
 struct Surface {
     points: Vec<Vec3>,
     tree: Nearest,
 }
 
 impl Surface {
-    fn new(mesh: &Mesh) -> Self {
+    fn of_head(mesh: &Mesh, frame: &HeadFrame) -> Self {
         let centers = mesh.corners().map(|[a, b, c]| a / 3.0 + b / 3.0 + c / 3.0);
-        let points: Vec<Vec3> = mesh.positions.iter().copied().chain(centers).collect();
+        let is_head = |point: &Vec3| point.distance(frame.center) < REACH * frame.height;
+        let all = mesh.positions.iter().copied().chain(centers);
+        let points: Vec<Vec3> = all.filter(is_head).collect();
         Self {
             tree: Nearest::new(points.iter().copied()),
             points,

@@ -134,9 +134,10 @@ impl<'a> Collider<'a> {
         self.before != self.now || self.was.as_ref().is_some_and(deforms)
     }
 
-    pub(crate) fn is_finite(&self) -> bool {
+    /// Whether its numbers are finite, radii no less than 0, and its poses rigid.
+    pub(crate) fn is_valid(&self) -> bool {
         let shapes = self.shape.is_finite() && self.at_start().is_finite();
-        shapes && self.before.is_finite() && self.now.is_finite()
+        shapes && self.before.is_rigid() && self.now.is_rigid()
     }
 }
 

@@ -151,7 +151,7 @@ impl Zigzag {
             set_aside: 1,
             ..Stats::default()
         };
-        if !head.is_finite() {
+        if !head.is_rigid() {
             return set_aside;
         }
         if self.is_rigid {

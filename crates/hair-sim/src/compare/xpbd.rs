@@ -164,7 +164,7 @@ impl Rod {
         sweeps: u32,
     ) -> Stats {
         let before = self.head;
-        if !head.is_finite() {
+        if !head.is_rigid() {
             return Stats {
                 set_aside: 1,
                 ..Stats::default()

@@ -19,7 +19,7 @@ use super::springs::Spring;
 pub struct Mutual {
     /// Neighbours of a strand, 0 to 16.
     pub neighbours: usize,
-    /// Stiffness of links in 1/s^2, 0 to 1e6.
+    /// Stiffness of links in 1/s^2, 0 to 1e6. In a step of `dt` seconds they are no stiffer than `1 / (neighbours * dt^2)`: 900 of four neighbours at 1/60 s.
     pub link: f64,
     /// Pairs closer than this at rest are linked, in m, 0 to 10.
     pub reach: f64,
@@ -27,7 +27,7 @@ pub struct Mutual {
     pub break_at: f64,
     /// Whether a broken link holds again once it is back within a tenth of that.
     pub mends: bool,
-    /// Stiffness of repulsion in 1/s^2, 0 to 1e6.
+    /// Stiffness of repulsion in 1/s^2, 0 to 1e6. In a step it is no stiffer than four times what links are.
     pub repulsion: f64,
     /// Repulsion keeps pairs this far apart, or as far as at rest, whichever is less; in m, 0 to 10.
     pub distance: f64,
@@ -62,6 +62,12 @@ impl Mutual {
         .find(|(_, value, least, most)| !(least..=most).contains(&value))
     }
 }
+
+/// All links of a particle together, and all that push it off, are at most so stiff, over the square of the step. A partner is where its own motion would take it: what
+/// is much faster than a step overshoots it, and both swing against each other more and more, links from between 1 and 2 on, what
+/// only pushes from some 70 on.
+const STIFFEST_LINKS: f64 = 1.0;
+const STIFFEST_REPULSION: f64 = 4.0;
 
 impl Mutual {
     /// The share of a particle's own acceleration that its partners are expected to have in a step of `dt` seconds. All of it
@@ -188,7 +194,9 @@ struct Kind {
 }
 
 impl Kind {
-    fn new(mutual: &Mutual, stiffness: f64, dt: f64) -> Self {
+    fn new(mutual: &Mutual, stiffness: f64, stiffest: f64, dt: f64) -> Self {
+        let most = stiffest / (mutual.neighbours.max(1) as f64 * dt * dt);
+        let stiffness = stiffness.min(most);
         Self {
             stiffness,
             rate: 2.0 * stiffness.sqrt(),
@@ -209,8 +217,8 @@ pub(crate) fn act<T: Number>(
         #[inline(always)]
         move || {
             let mut counts = Counts::default();
-            let [link, repulsion] = [mutual.link, mutual.repulsion]
-                .map(|stiffness| Kind::new(mutual, stiffness, own.dt));
+            let link = Kind::new(mutual, mutual.link, STIFFEST_LINKS, own.dt);
+            let repulsion = Kind::new(mutual, mutual.repulsion, STIFFEST_REPULSION, own.dt);
             let (root_before, root_now) = (own.root_before.load::<T>(), own.root_now.load::<T>());
             let mut left = broken;
             for pairs in pairs.chunk_by(|one, next| one.at == next.at) {

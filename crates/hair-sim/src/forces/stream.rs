@@ -127,7 +127,8 @@ pub(crate) fn in_turns(rate: f64, period: f64) -> f64 {
 }
 
 impl Stream {
-    pub(crate) fn is_finite(&self) -> bool {
+    /// Whether its numbers are finite and in their ranges.
+    pub(crate) fn is_valid(&self) -> bool {
         let has_shape = match &self.flow {
             Flow::Source { radius } | Flow::Vortex { radius } | Flow::Wake { radius } => {
                 radius.is_finite() && *radius >= 1e-3
@@ -140,7 +141,7 @@ impl Stream {
         has_shape
             && self.speed.iter().all(|speed| speed.is_finite())
             && self.center.iter().all(|center| center.is_finite())
-            && self.axis.is_finite()
+            && (self.axis.length_squared() - 1.0).abs() <= 1e-3
     }
 
     /// Whether it stays the same from the start of the step to its end, and in the next one where its numbers do.

@@ -205,6 +205,9 @@ pub(crate) struct BatchState {
     /// Where the tips were a step before, and their way in the step before that.
     pub tip_before: Vec3,
     pub tip_way: Vec3,
+    /// The means of late of their velocity and their speed, in m/s.
+    pub tip_drift: Vec3,
+    pub tip_speed: Lane,
     /// For how long neither any roots nor anything that acts on strands have moved, in s.
     pub calm: Lane,
     /// Links to other strands that hold no more: one for every pair of the batch.
@@ -251,6 +254,8 @@ impl BatchState {
             rocking: Lane::ZERO,
             tip_before: Vec3::ZERO,
             tip_way: Vec3::ZERO,
+            tip_drift: Vec3::ZERO,
+            tip_speed: Lane::ZERO,
             broken: Vec::new(),
             pull: NO_PULL,
             ceiling: Lane::ZERO,
@@ -276,6 +281,7 @@ impl BatchState {
                 state.y[k].set(lane, y);
             }
         }
+        state.tip_before = state.y.last().copied().unwrap_or(Vec3::ZERO);
         state
     }
 }
@@ -326,6 +332,7 @@ impl BatchState {
         turned(&mut self.root_velocity);
         turned(&mut self.tip_before);
         turned(&mut self.tip_way);
+        turned(&mut self.tip_drift);
         // The next step finds out anew what energy there is.
         self.pull = NO_PULL;
         self.root = root;

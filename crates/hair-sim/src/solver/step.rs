@@ -1,7 +1,7 @@
 //! A step of a batch.
 
 use crate::{
-    lanes::{Number, Quat, Vec3},
+    lanes::{LANES, Number, Quat, Vec3},
     stats::Stats,
 };
 
@@ -20,6 +20,10 @@ use super::{
     unrest::calm_down,
 };
 
+/// A step that is so many times as long as the one before starts anew. What particles' accelerations were at the end of a very short step says little about
+/// the strands: it took the rest of a link's stretch away at once, which a long step would go on with.
+const LONGER: f64 = 64.0;
+
 /// Advances a batch by `drive.dt`.
 pub(crate) fn advance<T: Number>(
     batch: &Batch,
@@ -30,6 +34,9 @@ pub(crate) fn advance<T: Number>(
     T::run(
         #[inline(always)]
         move || {
+            if drive.dt > LONGER * drive.last_dt {
+                state.restart = [true; LANES];
+            }
             let root = RootMotion::new(state, drive);
             let asleep = drive.asleep;
             let mut stats = Stats {

@@ -2,9 +2,9 @@
 //!
 //! Where locks that keep out of each other are pressed together there may be no place in which all of them do. Each step holds a particle by the
 //! plane that is most urgent, the next by another, and what is shoved to and fro would tremble for ever. So would strands that a tie gathers over a
-//! body. A strand that others press on, or a body where anchors hold it, and that has moved by itself for some seconds gives in: its locks part no more
-//! ([`super::locks::PATIENCE`]), and it sticks where it is on the head, the faster the longer it goes on, as hair does that has felted. What swings out
-//! has come to rest before that. So does a strand stick that rocks on a body, turning back in every step or every second one, about a particle that
+//! body. A strand that others press on, or a body where anchors hold it, and that has gone to and fro by itself for some seconds gives in: its locks part no more
+//! ([`super::locks::PATIENCE`]), and it sticks where it is on the head, the faster the longer it goes on, as hair does that has felted. What swings
+//! gets on, and doesn't count. So does a strand stick that rocks on a body, turning back in every step or every second one, about a particle that
 //! friction holds there. Roots, air, bodies and anchors that move make it forget.
 
 use crate::{
@@ -20,11 +20,19 @@ use super::{
 };
 
 /// At this speed of a strand's fastest particle, in m/s, half of a time counts as moved.
-const MOVES: f64 = 1e-3;
+const MOVES: f64 = 2.5e-4;
 
 /// The drag in 1/s of what has been restless for a second more than [`PATIENCE`]. It grows with the fourth power of that time: what moves slows down within half
 /// a second, and what is driven on hardly creeps after two.
 const STICKS: f64 = 5e3;
+
+/// What jams goes to and fro and gets nowhere: over so many seconds, roughly, it is no farther from where it was than this share of its way. A step in which it gets
+/// on takes away this share of one in which it doesn't, so that what swings with a period of half a second or more never counts.
+const LATE: f64 = 0.15;
+const SOMEWHERE: f64 = 0.3;
+const GETS_ON: f64 = 1.0;
+/// What jams may creep as well: a tip that has gone no faster than this, in m/s, gets nowhere either. What swings so fast goes half a millimetre to and fro.
+const CREEPS: f64 = 5e-3;
 
 /// What rocks on a body turns back in each step or in each second one. A step in which it doesn't takes away this share of one in which it does, and
 /// what swings with a period of more than ten steps never counts.
@@ -40,14 +48,15 @@ pub(super) fn calm_down(
     active: Mask,
 ) {
     let turned_back = turned_back(state, active);
-    let [jams, rocks] =
-        moved(batch, state, drive, turned_back).map(|counts| active.pick(counts, Lane::ZERO));
+    let goes_nowhere = goes_nowhere(state, active, drive.dt);
+    let [jams, rocks] = moved(batch, state, drive, [goes_nowhere, turned_back])
+        .map(|counts| active.pick(counts, Lane::ZERO));
     if [jams, rocks, state.restless, state.rocking] == [Lane::ZERO; 4] {
         return;
     }
     let stirs = stirred(batch, state, (drive, root)) * (drive.dt / STIRS);
     let left = (Lane::ONE + stirs).recip();
-    let restless = state.restless * left + jams;
+    let restless = (state.restless * left + jams).max(Lane::ZERO);
     state.restless = active.pick(restless, state.restless);
     let rocking = (state.rocking * left + rocks).max(Lane::ZERO);
     state.rocking = active.pick(rocking, state.rocking);
@@ -70,26 +79,48 @@ fn turned_back(state: &mut BatchState, active: Mask) -> Mask {
     turned_back
 }
 
-/// What counts of the step before, in s: as moved, where others press on strands, or a body on those that are tied; and as rocked, where a body presses
-/// on any. Of the latter, until it sticks, what goes on takes away again.
+/// The strands whose tips have gone to and fro of late without getting anywhere. Takes note of how they go.
 #[inline(always)]
-fn moved(batch: &Batch, state: &BatchState, drive: &Drive, turned_back: Mask) -> [Lane; 2] {
+fn goes_nowhere(state: &mut BatchState, active: Mask, dt: f64) -> Mask {
+    let velocity = state.tip_way * (1.0 / dt);
+    let share = dt / (dt + LATE);
+    let drift = state.tip_drift + (velocity - state.tip_drift) * share;
+    let speed = state.tip_speed + (velocity.length_squared().sqrt() - state.tip_speed) * share;
+    state.tip_drift = Vec3::pick(active, drift, state.tip_drift);
+    state.tip_speed = active.pick(speed, state.tip_speed);
+    let least = speed * SOMEWHERE;
+    let creeps = speed.lt(Lane::splat(CREEPS));
+    drift.length_squared().lt(least * least).or(creeps)
+}
+
+/// What counts of the step before, in s: as moved, where others press on strands, or a body on those that are tied, and they go nowhere; and as rocked, where a
+/// body presses on any, and they turn back. Of both, until they stick, what goes on takes away again.
+#[inline(always)]
+fn moved(
+    batch: &Batch,
+    state: &BatchState,
+    drive: &Drive,
+    [goes_nowhere, turned_back]: [Mask; 2],
+) -> [Lane; 2] {
     let (bodies, others) = state.press.split_at(batch.count());
     let mut tied = Lane::ZERO;
     for own in drive.anchors {
         tied[own.lane] = 1.0;
     }
-    let patient = state.rocking.lt(Lane::splat(PATIENCE[0]));
-    let goes_on = patient.pick(Lane::splat(-GOES_ON), Lane::ZERO);
-    let turns = turned_back.pick(Lane::ONE, goes_on);
+    let counts = |so_far: Lane, here: Mask, goes_on: f64| {
+        let patient = so_far.lt(Lane::splat(PATIENCE[0]));
+        here.pick(Lane::ONE, patient.pick(Lane::splat(-goes_on), Lane::ZERO))
+    };
+    let stays = counts(state.restless, goes_nowhere, GETS_ON);
+    let turns = counts(state.rocking, turned_back, GOES_ON);
     let (mut held, mut rocks) = (Lane::ZERO, Lane::ZERO);
     for press in bodies {
         let presses = press.gt(Lane::ZERO);
-        held = presses.pick(tied, held);
+        held = presses.pick(tied * stays, held);
         rocks = presses.pick(turns, rocks);
     }
     for press in others {
-        held = press.gt(Lane::ZERO).pick(Lane::ONE, held);
+        held = press.gt(Lane::ZERO).pick(stays, held);
     }
     // Goals that go through key shapes move strands themselves.
     if [held, rocks] == [Lane::ZERO; 2] || drive.surroundings.goal.is_some() {
@@ -229,27 +260,40 @@ mod tests {
         assert!(stuck < 1e-3, "{stuck}");
     }
 
-    /// What is tied and lies on a body counts, and nothing that is free of either.
-    #[test]
-    fn a_tied_strand_is_restless_where_it_rubs_on_a_body() {
-        let (ball, anchors) = ([BALL], anchor(0.0));
-        let counts = |colliders, anchors| {
-            let mut hair = hanging(0.0);
-            for (k, v) in hair.1.batches[0].v.iter_mut().enumerate() {
-                v.z[0] = 0.1 * (k + 1) as f64;
-            }
+    /// For how long a strand counts as restless at the most, in 3 s in which gravity pulls it across by so much in each step.
+    fn counts(colliders: &[Collider], anchors: &[Anchor], across: impl Fn(u32) -> f64) -> f64 {
+        let mut hair = hanging(0.0);
+        let mut longest = 0.0_f64;
+        for frame in 0..180 {
             let surroundings = Surroundings {
                 // Towards the ball.
-                gravity: DVec3::new(-5.0, -8.0, 0.0),
+                gravity: DVec3::new(-5.0, -8.0, across(frame)),
                 colliders,
                 ..at_rest(anchors)
             };
-            (0..30).for_each(|_| step(&mut hair, &surroundings));
-            restless(&hair)
-        };
-        assert!(counts(&ball, &anchors) > 0.1);
-        assert_eq!(counts(&ball, &[]), 0.0);
-        assert_eq!(counts(&[], &anchors), 0.0);
+            step(&mut hair, &surroundings);
+            longest = longest.max(restless(&hair));
+        }
+        longest
+    }
+
+    /// What is tied and trembles on a body counts, and nothing that is free of either.
+    #[test]
+    fn a_tied_strand_is_restless_where_it_trembles_on_a_body() {
+        let (ball, anchors) = ([BALL], anchor(0.0));
+        let to_and_fro = |frame| if frame % 2 == 0 { 20.0 } else { -20.0 };
+        let trembles = counts(&ball, &anchors, to_and_fro);
+        assert!(trembles > 1.0, "{trembles}");
+        assert_eq!(counts(&ball, &[], to_and_fro), 0.0);
+        assert_eq!(counts(&[], &anchors, to_and_fro), 0.0);
+    }
+
+    /// A tied strand that swings along a body gets on for most of the time, until it is hardly seen to move.
+    #[test]
+    fn a_tied_strand_that_swings_is_hardly_restless() {
+        let swings = |frame: u32| if frame < 6 { 8.0 } else { 0.0 };
+        let swings = counts(&[BALL], &anchor(0.0), swings);
+        assert!(swings < 1.0, "{swings}");
     }
 
     /// What swings along a body turns back twice in a period, and goes on for all of the time between.

@@ -8,9 +8,11 @@ mod goals;
 mod locks;
 mod mutual;
 mod rate;
+mod refused;
 mod ridges;
 mod roots;
 mod sleep;
+mod swings;
 mod wind;
 
 use glam::{DVec3, Vec3};

@@ -179,3 +179,53 @@ fn repulsion_keeps_strands_apart() {
     assert!(through < -0.01, "{through}");
     assert!(apart > 0.0 && pushed > 100, "{apart} {pushed}");
 }
+
+/// Links that are much faster than a step don't shake hair for ever.
+#[test]
+fn stiff_links_come_to_rest() {
+    for (dt, link) in [(1.0 / 60.0, 1e4), (1.0 / 24.0, 4e3)] {
+        let mut rest = Strands::new();
+        for i in 0..40_u32 {
+            let root = Vec3::new(0.006 * (i % 8) as f32, 1.6, 0.006 * (i / 8) as f32);
+            let points: Vec<Vec3> = (0..=16)
+                .map(|k| root - Vec3::Y * (0.25 * k as f32 / 16.0))
+                .collect();
+            rest.push(i, &points, None).unwrap();
+        }
+        let (mut solver, mut state) = Solver::new(&rest, &Params::default()).unwrap();
+        let mutual = Mutual {
+            link,
+            repulsion: 0.0,
+            ..Mutual::default()
+        };
+        solver.interact(&mut state, &mutual).unwrap();
+        let mut late = 0.0_f64;
+        for frame in 0..(20.0 / dt) as i32 {
+            let time = f64::from(frame) * dt;
+            let roots = Roots::Head(Pose {
+                translation: DVec3::X * 0.1 * (time.min(0.5) * std::f64::consts::TAU).sin(),
+                ..Pose::IDENTITY
+            });
+            solver
+                .step(
+                    &mut state,
+                    &Surroundings {
+                        roots,
+                        ..Default::default()
+                    },
+                    dt,
+                )
+                .unwrap();
+            if time > 15.0 {
+                for strand in 0..solver.len() {
+                    let speeds = solver.velocities(&state, strand).map(DVec3::length);
+                    late = speeds.fold(late, f64::max);
+                }
+            }
+        }
+        assert!(
+            late < 0.05,
+            "links of {link}, steps of {dt}: {late} m/s after 15 s"
+        );
+    }
+}

@@ -66,7 +66,7 @@ where
         self.is_ahead = false;
         self.state.clone_from(&self.start);
         (self.solver).teleport(&mut self.state, Roots::Head(styled))?;
-        self.solver.settle(&mut self.state, colliders);
+        self.solver.settle(&mut self.state, colliders)?;
         if first == styled {
             return Ok(());
         }

@@ -3,7 +3,7 @@
 use super::along;
 use crate::files::StageError;
 use crate::lines::{HeadLines, LineStrand};
-use crate::motion::{ObjectMotion, held_time};
+use crate::motion::{ObjectMotion, held_time, time_of_frame};
 use crate::neck::PosedHead;
 use crate::object::Object;
 use crate::placement::Placement;
@@ -79,7 +79,8 @@ impl ObjectLines {
         for frame in lines.frames_before(now) {
             // Where the script has the head then; a hand that turns it live isn't asked.
             let frame = frame as f64;
-            let held = held_time(&look.sections.motion, time.fps as f32, frame / time.fps);
+            let time_s = time_of_frame(frame, time.fps);
+            let held = held_time(&look.sections.motion, time.fps as f32, time_s);
             let pose = object.script().head_at(held);
             if lines.stays(sight.camera(), pose, frame) {
                 continue;

@@ -20,6 +20,34 @@ fn marks_are_those_of_the_sequence_whichever_frame_is_asked_for() {
     assert!(at(&mut all, 5) == sequence[5], "again");
 }
 
+/// Also where a frame's time in single precision is another than in double, which may be another picture.
+#[test]
+fn a_late_frame_is_that_of_the_sequence_at_any_rate() {
+    let lines = "(name: \"rim\", kind: \"contour, crease\", crease: 24)";
+    for (fps, on) in [(24.0_f32, 1), (24.0, 2), (30.0, 1), (60.0, 2)] {
+        let make = || {
+            let registry = registry();
+            let text = format!(
+                "(version: 1, head: (shape: none), meshes: [(shape: wings, turn: (38, 0, 0))], motion: (on: {on}),
+                 scene: (size: (240, 240), fps: {fps}), camera: (distance: 2, pitch: 34), lines: [{lines}], layers: [{CHALK}])"
+            );
+            let preset = Preset::parse("look.ron", &text, &registry).unwrap();
+            Stage::new(&preset, &Files::default()).unwrap()
+        };
+        let at = |stage: &mut Stage, frame: u32| {
+            stage.advance_to(frame as f32 / fps).unwrap();
+            let frame = stage.frame().unwrap();
+            (frame.paths.center.to_vec(), frame.marks.to_vec())
+        };
+        let mut all = make();
+        let sequence: Vec<_> = (0..46).map(|frame| at(&mut all, frame)).collect();
+        for frame in [29, 38, 45] {
+            let alone = at(&mut make(), frame);
+            assert!(alone == sequence[frame as usize], "{fps}, {on}: {frame}");
+        }
+    }
+}
+
 /// As `--time` asks for them, and as what is blurred by motion is made of.
 #[test]
 fn moments_between_frames_follow_the_one_before_and_are_not_followed() {
