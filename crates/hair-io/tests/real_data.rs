@@ -158,6 +158,20 @@ fn makehuman_is_in_decimetres_and_wears_other_hair() {
     }
 }
 
+/// Of a whole character, whose belly and chin other units would put the roots on.
+#[test]
+fn hair_lies_on_a_character_s_head() {
+    let Some(data) = data() else { return };
+    let character = head(&data, "vrm/Godette_vrm_v4.vrm");
+    let frame = HeadFrame::find(Some(&character.mesh), &[]);
+    for name in [DENSE, LITE] {
+        let roots = roots(&hair(&data, name, Some(&character)).strands);
+        let away = middle(&roots).distance(frame.center) / frame.height;
+        eprintln!("{name} on {frame:?}: {away:.2} head heights from its middle");
+        assert!(away < 0.3, "{name}: {away}");
+    }
+}
+
 #[test]
 fn the_mohawk_and_blenders_strands_are_read_the_right_way_up() {
     let Some(data) = data() else { return };

@@ -14,6 +14,8 @@ use crate::sphere::{Sphere, without_outliers};
 const RADII_IN_HEIGHT: f64 = 2.6;
 /// Of a mesh that far from a head's middle is the head, in head heights: what of a body lies below is none, and hair would fit it as well in another unit.
 const REACH: f32 = 0.8;
+/// And the middle of a scalp is no farther from the head's.
+const MIDDLE: f32 = 0.3;
 /// Roots lie on a head where their mean distance from it is below this, in radii of the scalp. Coarse
 /// meshes and lifted roots stay below, hair beside the head or of another size doesn't.
 const ON_HEAD: f64 = 0.2;
@@ -59,7 +61,20 @@ pub(super) fn place(
             0.1 * likes_y
         }
     };
+    // All of a scalp lies around the head's middle.
+    let is_around = |o: &Orientation| {
+        let middle = o.apply(sphere.center.as_vec3());
+        eprintln!(
+            "{o:?} {} {}",
+            middle.distance(frame.center) / frame.height,
+            misfit(o)
+        );
+        given.offset.is_some()
+            || !cloud.is_scalp
+            || middle.distance(frame.center) < MIDDLE * frame.height
+    };
     let best = tries
+        .filter(is_around)
         .map(|o| (misfit(&o), o))
         .min_by(|a, b| (a.0 + turned(&a.1)).total_cmp(&(b.0 + turned(&b.1))));
     if let Some((misfit, orientation)) = best
