@@ -46,7 +46,10 @@ use glam::{DQuat, DVec3, Vec3};
 use crate::{
     collision::shape::Collider,
     error::{DynamicsError, Fault},
-    forces::mutual::{Course, Mutual, Pair},
+    forces::{
+        mutual::{Course, Mutual, Pair},
+        wind::Blown,
+    },
     lanes::{LANES, Lane, Vec3 as LaneVec3, instructions::Instructions},
     params::Params,
     rest::RestStrand,
@@ -153,8 +156,8 @@ fn follow(
 pub struct State {
     /// Where each strand's numbers are: [`layout`].
     layout: u64,
-    /// Seconds since the start.
-    time: f64,
+    /// Of the time and the wind since the start.
+    blown: Blown,
     /// The length of the last step in s; 0 before the first.
     last_dt: f64,
     /// What acted in the last step: where it stays the same, strands can come to rest.
@@ -166,7 +169,7 @@ impl State {
     /// Seconds since the start.
     #[must_use]
     pub fn time(&self) -> f64 {
-        self.time
+        self.blown.time
     }
 }
 
@@ -269,7 +272,7 @@ impl Solver {
         solver.locks = locks.map(|locks| (locks, Islands::one(solver.batches.len())));
         let state = State {
             layout: layout(&solver.places),
-            time: 0.0,
+            blown: Blown::default(),
             last_dt: 0.0,
             last: 0,
             batches: states,
@@ -357,7 +360,7 @@ impl Solver {
         let (batches, states) = (&self.batches, &state.batches);
         (self.sleepers).find(batches, states, surroundings, calm, islands);
         if calm && self.have_links && self.sleepers.are_all(batches) {
-            state.time += dt;
+            state.blown = surroundings.blown(1.0, state.blown, dt);
             state.last_dt = dt;
             return Ok(Stats {
                 asleep: self.len(),
@@ -365,8 +368,8 @@ impl Solver {
             });
         }
         let gusts = [
-            surroundings.air_at(GAMMA, state.time + GAMMA * dt),
-            surroundings.air_at(1.0, state.time + dt),
+            surroundings.air_at(GAMMA, state.blown, dt),
+            surroundings.air_at(1.0, state.blown, dt),
         ];
         self.guards.clear();
         self.guards
@@ -439,7 +442,7 @@ impl Solver {
             (0, self.group),
             &step,
         );
-        state.time += dt;
+        state.blown = surroundings.blown(1.0, state.blown, dt);
         state.last_dt = dt;
         Ok(sum)
     }

@@ -6,7 +6,7 @@ use crate::{
     collision::shape::Collider,
     error::DynamicsError,
     forces::stream::Stream,
-    forces::wind::{Gusts, Wind},
+    forces::wind::{Blown, Gusts, Wind},
     hash::Hash,
     params::GRAVITY,
     pose::Pose,
@@ -186,10 +186,18 @@ impl Surroundings<'_> {
         self.wind.gust == 0.0 && is_even && steady && anchored && self.colliders.iter().all(still)
     }
 
-    /// The motion of the air at `share` of the step, 0 to 1, which is at `time` seconds.
+    /// The motion of the air at `share` of a step of `dt` seconds, 0 to 1, after what has blown before the step.
     #[inline(always)]
-    pub(crate) fn air_at(&self, share: f64, time: f64) -> Gusts<'_> {
-        self.wind_at(share).air(time, self.streams, share)
+    pub(crate) fn air_at(&self, share: f64, before: Blown, dt: f64) -> Gusts<'_> {
+        let blown = self.blown(share, before, dt);
+        self.wind_at(share).air(&blown, self.streams, share)
+    }
+
+    /// What has blown until `share` of a step of `dt` seconds, 0 to 1.
+    #[inline(always)]
+    pub(crate) fn blown(&self, share: f64, before: Blown, dt: f64) -> Blown {
+        // Of what changes evenly the mean is that of half the way.
+        before.after(share * dt, &self.wind_at(0.5 * share))
     }
 
     #[inline(always)]

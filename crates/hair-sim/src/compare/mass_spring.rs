@@ -16,6 +16,7 @@ use super::{
 };
 use crate::{
     error::DynamicsError,
+    forces::wind::Blown,
     params::{GRAVITY, Natural, Params},
     pose::Pose,
     rest::{RestLink, RestStrand},
@@ -119,7 +120,7 @@ pub struct Zigzag {
     /// Where the head was.
     head: Pose,
     /// Seconds since the start.
-    time: f64,
+    blown: Blown,
     points: Vec<DVec3>,
     velocities: Vec<DVec3>,
     /// Places of the goals at the end of the step before; none yet at the start.
@@ -159,8 +160,8 @@ impl Zigzag {
             return set_aside;
         }
         // In the middle of the step.
-        let gusts = surroundings.air_at(0.5, self.time + 0.5 * dt);
-        self.time += dt;
+        let gusts = surroundings.air_at(0.5, self.blown, dt);
+        self.blown = surroundings.blown(1.0, self.blown, dt);
         let goals = self.goals_at(surroundings, head);
         let felt = gusts.blows && self.drag > 0.0;
         let mut stats = Stats {
@@ -359,7 +360,7 @@ impl Strand for Zigzag {
             first_point,
             is_rigid,
             head: Pose::IDENTITY,
-            time: 0.0,
+            blown: Blown::default(),
             velocities: vec![DVec3::ZERO; styled.len()],
             goals: Vec::new(),
             points: styled.clone(),

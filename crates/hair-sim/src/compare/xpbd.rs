@@ -7,6 +7,7 @@
 use super::apart::{self, Acting, Pull, Strand, on_the_way};
 use crate::{
     error::DynamicsError,
+    forces::wind::Blown,
     params::Params,
     pose::Pose,
     rest::RestStrand,
@@ -108,7 +109,7 @@ pub struct Rod {
     root: (DVec3, DQuat),
     head: Pose,
     /// Seconds since the start.
-    time: f64,
+    blown: Blown,
     points: Vec<DVec3>,
     velocities: Vec<DVec3>,
     /// The frame of the skin, then of each link: the third axis points along the link.
@@ -178,8 +179,8 @@ impl Rod {
             };
         }
         // In the middle of the step.
-        let gusts = surroundings.air_at(0.5, self.time + 0.5 * dt);
-        self.time += dt;
+        let gusts = surroundings.air_at(0.5, self.blown, dt);
+        self.blown = surroundings.blown(1.0, self.blown, dt);
         let goals = self.goals_at(surroundings, head);
         let mut stats = Stats {
             strands: 1,
@@ -419,7 +420,7 @@ impl Strand for Rod {
             is_rigid,
             root: (rest.root, rest.base),
             head: Pose::IDENTITY,
-            time: 0.0,
+            blown: Blown::default(),
             velocities: vec![DVec3::ZERO; count],
             spins: vec![DVec3::ZERO; count],
             goals: Vec::new(),

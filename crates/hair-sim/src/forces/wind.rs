@@ -39,6 +39,30 @@ impl Default for Wind {
     }
 }
 
+/// How long the wind has blown, and how far it has carried gusts and they have gone by themselves until then. Their phases hang on these ways: on time and
+/// the wind's speed of the moment they would race while that changes, the more the later it is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub(crate) struct Blown {
+    /// In s.
+    pub time: f64,
+    /// In m.
+    pub way: DVec3,
+    /// In m.
+    pub own_way: f64,
+}
+
+impl Blown {
+    /// After `seconds` more of a wind of this mean.
+    #[inline(always)]
+    pub fn after(self, seconds: f64, mean: &Wind) -> Self {
+        Self {
+            time: self.time + seconds,
+            way: self.way + mean.steady * seconds,
+            own_way: self.own_way + mean.gust.abs() * seconds,
+        }
+    }
+}
+
 /// The gusts at one time: waves across their own direction (so that air is neither made nor lost), which the steady
 /// wind carries along (Taylor's frozen turbulence) and which change by themselves. Continuous with all their derivatives in
 /// space and time.
@@ -73,9 +97,9 @@ impl Wind {
             && self.period.is_finite()
     }
 
-    /// The air at `time` seconds with these streams, at `share` of the step.
+    /// The air with these streams, at `share` of the step.
     #[inline(always)] // made where it is kept: it is large
-    pub(crate) fn air<'a>(&self, time: f64, streams: &'a [Stream], share: f64) -> Gusts<'a> {
+    pub(crate) fn air<'a>(&self, blown: &Blown, streams: &'a [Stream], share: f64) -> Gusts<'a> {
         let blows = |stream: &Stream| stream.speed != [0.0; 2];
         let mut waves = [Wave {
             number: DVec3::ZERO,
@@ -93,9 +117,14 @@ impl Wind {
                     .normalize_or(along.any_orthonormal_vector());
                 // Wavelengths from 0.6 to 1.6 of the size.
                 let number = along / (self.size * (0.6 + (j as f64 + random(4)) / WAVES as f64));
-                let change = self.gust.abs() * number.length() * 0.5;
-                let rate = in_turns(number.dot(self.steady) + change, self.period);
-                let phase = random(5) - time * rate;
+                let turns =
+                    |way: DVec3, own_way: f64| number.dot(way) + 0.5 * number.length() * own_way;
+                let gone = if self.period > 0.0 {
+                    blown.time * in_turns(turns(self.steady, self.gust.abs()), self.period)
+                } else {
+                    turns(blown.way, blown.own_way)
+                };
+                let phase = random(5) - gone;
                 // A sine's mean square is a half.
                 let speed = self.gust * (2.0 / WAVES as f64).sqrt();
                 *wave = Wave {
@@ -112,7 +141,7 @@ impl Wind {
             gusts,
             streams,
             share,
-            time,
+            time: blown.time,
         }
     }
 }
@@ -176,14 +205,18 @@ mod tests {
         }
     }
 
+    /// The air after so many seconds of a wind.
+    fn air(wind: &Wind, seconds: f64) -> Gusts<'static> {
+        wind.air(&Blown::default().after(seconds, wind), &[], 1.0)
+    }
+
     #[test]
     fn gusts_are_continuous_in_space_and_time() {
         let wind = wind();
         for i in 0..2000 {
             let t = f64::from(i) * 0.37;
             let at = DVec3::new(t, -0.2 * t, 0.6 * t) * 0.1;
-            let velocity =
-                |t: f64, at: DVec3| wind.air(t, &[], 1.0).velocity(Vec3::splat(at)).get(0);
+            let velocity = |t: f64, at: DVec3| air(&wind, t).velocity(Vec3::splat(at)).get(0);
             let now = velocity(t, at);
             assert!((velocity(t + 1e-5, at) - now).length() < 1e-2);
             assert!((velocity(t, at + DVec3::splat(1e-5)) - now).length() < 1e-2);
@@ -197,8 +230,7 @@ mod tests {
         let count = 20_000;
         for i in 0..count {
             let at = DVec3::new(unit(1, i) * 50.0, unit(2, i) * 50.0, unit(3, i) * 50.0);
-            let gust = wind
-                .air(unit(4, i) * 1000.0, &[], 1.0)
+            let gust = air(&wind, unit(4, i) * 1000.0)
                 .velocity(Vec3::splat(at))
                 .get(3)
                 - wind.steady;
@@ -212,15 +244,39 @@ mod tests {
 
     #[test]
     fn the_same_seed_blows_the_same() {
-        let a = wind().air(5.0, &[], 1.0).velocity(Vec3::splat(DVec3::ONE));
-        assert_eq!(
-            a,
-            wind().air(5.0, &[], 1.0).velocity(Vec3::splat(DVec3::ONE))
-        );
+        let a = air(&wind(), 5.0).velocity(Vec3::splat(DVec3::ONE));
+        assert_eq!(a, air(&wind(), 5.0).velocity(Vec3::splat(DVec3::ONE)));
         let other = Wind { seed: 8, ..wind() };
-        assert_ne!(
-            a,
-            other.air(5.0, &[], 1.0).velocity(Vec3::splat(DVec3::ONE))
-        );
+        assert_ne!(a, air(&other, 5.0).velocity(Vec3::splat(DVec3::ONE)));
+    }
+
+    #[test]
+    fn gusts_are_no_quicker_while_the_wind_rises_late() {
+        // The quickest change of the gusts at a place, in m/s^2, while the wind rises by so much in two seconds after so many of an even one.
+        let quickest = |from: f64, rises: f64| {
+            let at = |seconds: f64| Wind {
+                steady: DVec3::X * (2.0 + rises * seconds / 2.0),
+                gust: 2.0,
+                ..Wind::default()
+            };
+            let dt = 1e-3;
+            let mut blown = Blown::default().after(from, &at(0.0));
+            let mut last = None;
+            let mut quickest = 0.0_f64;
+            for step in 0..2000 {
+                let now = at(f64::from(step) * dt);
+                blown = blown.after(dt, &now);
+                let air = now.air(&blown, &[], 1.0);
+                let gust = air.velocity(Vec3::splat(DVec3::ZERO)).get(0) - now.steady;
+                if let Some(last) = last.replace(gust) {
+                    quickest = quickest.max((gust - last).length() / dt);
+                }
+            }
+            quickest
+        };
+        for from in [0.0, 2.0, 100.0] {
+            let [even, rising] = [0.0, 4.0].map(|rises| quickest(from, rises));
+            assert!(rising < 3.0 * even, "{from} s: {rising} of {even}");
+        }
     }
 }
