@@ -73,3 +73,18 @@ fn functions_of_the_prelude_are_all_named() {
         assert!(text.contains(&format!("`{name}`")), "{name}");
     }
 }
+
+#[test]
+fn effects_that_are_shown_whole_are_translated() {
+    let text = document("docs/effects.md");
+    let shown = text.split("```wgsl\n").skip(1);
+    let shown: Vec<&str> = shown
+        .map(|rest| rest.split("```").next().unwrap())
+        .collect();
+    assert_eq!(shown.len(), 4);
+    for source in shown {
+        if let Err(error) = effects_build::translate_effect(source, "a.wgsl") {
+            panic!("{error}\n{source}");
+        }
+    }
+}

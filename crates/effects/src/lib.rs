@@ -85,6 +85,8 @@ pub use texture::{Blurred, Image, ImageError, Ramp, Row, Texture};
 pub use variation::Variation;
 pub use varied::Varied;
 
+/// The vectors of paths that effects make, for crates that don't depend on glam themselves.
+pub use glam;
 /// The runtime of the translated WGSL.
 pub use naga_rust_rt as rt;
 

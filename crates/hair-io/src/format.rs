@@ -24,6 +24,18 @@ impl HairFormat {
     }
 }
 
+/// Endings of hair's formats that other programs write. Those of meshes are not among them.
+const OTHERS: [&str; 7] = ["abc", "data", "hair", "usd", "usda", "usdc", "usdz"];
+
+/// Whether a file is hair by its name's ending, of a format that is read or of another one: hair styles are not.
+#[must_use]
+pub fn is_hair_file(path: &Path) -> bool {
+    let ending = ending(path);
+    ending == "tfx"
+        || OTHERS.contains(&ending.as_str())
+        || path.to_string_lossy().ends_with(".strands.ron")
+}
+
 /// What a file that is not read seems to be, by its first bytes, else by its name's ending.
 pub(crate) fn guess(path: &Path, bytes: &[u8]) -> String {
     let magic: [(&[u8], &str); 8] = [
@@ -61,4 +73,45 @@ fn ending(path: &Path) -> String {
         .unwrap_or_default()
         .to_string_lossy()
         .to_lowercase()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hair_is_told_by_its_name_whoever_reads_it() {
+        for name in [
+            "a.tfx",
+            "a.TFX",
+            "a.b.strands.ron",
+            "a.abc",
+            "a.usda",
+            "a.hair",
+        ] {
+            assert!(is_hair_file(Path::new(name)), "{name}");
+        }
+        for name in [
+            "a.ron",
+            "a.style.ron",
+            "a.motion.ron",
+            "strands.ron",
+            "a.obj",
+            "a.glb",
+            "a.png",
+            "abc",
+            "",
+        ] {
+            assert!(!is_hair_file(Path::new(name)), "{name}");
+        }
+    }
+
+    /// A file that is known to be hair is called by its format's name, not by its ending.
+    #[test]
+    fn formats_of_others_have_names() {
+        for other in OTHERS {
+            let name = guess(&Path::new("a").with_extension(other), b"");
+            assert!(!name.starts_with('"'), "{name}");
+        }
+    }
 }

@@ -39,6 +39,7 @@ mod whole_file;
 
 pub use error::HairError;
 pub use file::{HairFile, HairOptions, HeadFile, read_hair, read_head, write_strands};
+pub use format::is_hair_file;
 pub use head::HeadFrame;
 pub use mesh_io::{
     BoneMotion, MOST_OF_DATA, MOST_OF_TEXT, MeshError, ReadError, Welded as Mesh, decode_text,

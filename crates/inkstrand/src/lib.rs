@@ -82,6 +82,7 @@ pub fn run(registry: &Registry) -> ExitCode {
         Ok(arguments) => arguments,
         Err(answer) => return give(&answer),
     };
+    outlive_the_limit_of_files();
     leave_no_parts_when_interrupted();
     let done = match &arguments.command {
         Command::Render(options) => {
@@ -130,6 +131,18 @@ fn leave_no_parts_when_interrupted() {
     });
     // It fails where the program that calls us has a handler of its own, which is then in charge.
     drop(set);
+}
+
+/// From now on a file that grows beyond what a shell allows (`ulimit -f`) can't be written, as on a full disk, where the signal of it would
+/// end the process in the middle. Threads that are begun later are as this one.
+fn outlive_the_limit_of_files() {
+    #[cfg(unix)]
+    {
+        use std::ops::BitOr as _;
+        // A set of it alone: two signals make one.
+        let too_large = ctrlc::Signal::SIGXFSZ.bitor(ctrlc::Signal::SIGXFSZ);
+        let _ = too_large.thread_block(); // else all is as it was
+    }
 }
 
 /// Gives the answer to a command line that starts no work: help, the version, or what is wrong with it.

@@ -222,6 +222,25 @@ fn files_are_judged_by_their_kind() {
         );
 }
 
+/// Files of other programs are told by their format, where they would be no text.
+#[test]
+fn hair_that_is_not_read_is_judged_as_render_does() {
+    let folder = folder();
+    fs::write(folder.path().join("groom.abc"), b"Ogawa\xff\0").unwrap();
+    let look = "(version: 1, layers: [(effect: \"hair.base\")])";
+    fs::write(folder.path().join("look.ron"), look).unwrap();
+    let verdict = "groom.abc: Alembic is not a format that this build reads; it reads TressFX (.tfx), own strands (.strands.ron) and hair styles (.style.ron)";
+    for arguments in [
+        &["check", "groom.abc"][..],
+        &["render", "look.ron", "--hair", "groom.abc", "-o", "a.png"],
+    ] {
+        inkstrand(&folder, arguments)
+            .assert()
+            .code(1)
+            .stderr(contains(verdict));
+    }
+}
+
 #[test]
 fn folders_are_checked_whole() {
     let folder = folder();

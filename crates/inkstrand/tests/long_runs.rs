@@ -176,3 +176,21 @@ fn memory_is_flat_over_a_sequence() {
         "{early} KiB after 30 frames, {late} KiB after 330"
     );
 }
+
+/// A shell may limit how large files become: that is an error, as a full disk is.
+#[test]
+fn a_file_that_may_not_be_as_large_leaves_nothing() {
+    let folder = folder("(400, 300)");
+    let limited = "ulimit -f 1; exec \"$0\" render small.ron -o a.png --backend cpu";
+    let output = Command::new("sh")
+        .current_dir(folder.path())
+        .args(["-c", limited, env!("CARGO_BIN_EXE_inkstrand")])
+        .output()
+        .unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{told}");
+    assert!(told.contains("a.png: "), "{told}");
+    let mut left = names(folder.path());
+    left.sort();
+    assert_eq!(left, ["small.ron", "small.strands.ron"]);
+}

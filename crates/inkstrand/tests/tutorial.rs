@@ -8,6 +8,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 const TUTORIAL: &str = "docs/an-effect-in-30-lines.md";
 const PAINTING: &str = "docs/a-tone-for-each-sample.md";
+const REFERENCE: &str = "docs/effects.md";
 const FIRST_CRATE: &str = "crates/inkstrand/tests/tutorial/first-crate.md";
 
 /// Our crates, with the optimisation that they get here: what draws has the tutorial's, the others run little.
@@ -348,6 +349,18 @@ fn the_tutorial_of_painting_is_right() {
     assert_says(&undeclared, &told[0]);
     let unknown = made.fail_with_in("src/cut.wgsl", "color, tube", "color, tub");
     assert_says(&unknown, "src/cut.wgsl:2:");
+}
+
+/// The reference's effect in the tutorial's crate, as it stands there.
+#[test]
+fn the_effect_of_paths_of_its_own_is_right() {
+    let own = blocks(&read(REFERENCE));
+    let all: Vec<Block> = blocks(&read(TUTORIAL)).into_iter().chain(own).collect();
+    let made = Crate::write(&all);
+    let conforms =
+        "#[test]\nfn it_conforms() {\n    effects_testkit::assert_conforms::<Stray>();\n}\n";
+    made.change("src/stray.rs", |text| format!("{text}\n{conforms}"));
+    made.succeed(&["test", "--quiet", "stray"]);
 }
 
 #[test]

@@ -179,10 +179,10 @@ impl<'r> Preset<'r> {
             ("hair", "file") if load::is_style(path) => {
                 return self.check_text(files, file, check_style);
             }
-            ("hair", "file") => hair_io::read_hair(path, &HairOptions::default())
+            ("hair", "file") => check_hair(path),
+            ("hair", _) => hair_io::read_hair(path, &HairOptions::default())
                 .map(drop)
-                .map_err(|error| load::with_styles(error).into()),
-            ("hair", _) => check_hair(path),
+                .map_err(StageError::from),
             ("head", _) => hair_io::read_head(path, None, None)
                 .map(drop)
                 .map_err(StageError::from),
@@ -327,8 +327,14 @@ pub fn check_style(path: &Path, text: &str) -> Result<(), PresetErrors> {
 ///
 /// The first mistake, with the file's name.
 pub fn check_hair(path: &Path) -> Result<(), StageError> {
-    hair_io::read_hair(path, &HairOptions::default())?;
+    hair_io::read_hair(path, &HairOptions::default()).map_err(load::with_styles)?;
     Ok(())
+}
+
+/// Whether a file is hair by its name's ending, also of a format that this build doesn't read, which [`check_hair`] then says.
+#[must_use]
+pub fn is_hair_file(path: &Path) -> bool {
+    hair_io::is_hair_file(path)
 }
 
 /// Whether a file is one of meshes, a head or a character, by its name's ending.

@@ -40,7 +40,8 @@ impl Files {
     }
 }
 
-/// What is wrong with a path where no file is: with the name of its folder that is most like it, or else with `hint` at the end.
+/// What is wrong with a path where no file is: with the name of its folder that is most like it, of a file of its kind, or else with
+/// `hint` at the end.
 pub fn no_file(path: &Path, hint: &str) -> Option<String> {
     if path.is_file() {
         return None;
@@ -63,12 +64,35 @@ pub fn no_file(path: &Path, hint: &str) -> Option<String> {
         .collect();
     names.sort();
     let wrong = path.file_name().unwrap_or_default().to_string_lossy();
-    let near = nearest(&wrong, names.iter().map(String::as_str));
-    let hint = near.map_or_else(
+    let hint = meant_file(&wrong, &names).map_or_else(
         || hint.to_owned(),
         |near| format!(", did you mean `{near}`?"),
     );
     Some(format!("there is no `{shown}`{hint}"))
+}
+
+/// The file that a wrong name may mean. It has the same ending: nobody who names a picture means a look, nor one who names a style. What
+/// stands before the ending is near, since all names of a kind are alike with it.
+fn meant_file<'n>(wrong: &str, names: &'n [String]) -> Option<&'n str> {
+    let wrong = wrong.to_lowercase();
+    let ending = ending(&wrong);
+    let of_kind = names.iter().filter_map(|name| {
+        let stem = name.to_lowercase().strip_suffix(ending)?.to_owned();
+        Some((stem, name))
+    });
+    let of_kind: Vec<(String, &String)> = of_kind.collect();
+    let stem = wrong.strip_suffix(ending)?;
+    let near = nearest(stem, of_kind.iter().map(|(stem, _)| stem.as_str()))?;
+    let meant = of_kind.iter().find(|(stem, _)| stem == near);
+    meant.map(|(_, name)| name.as_str())
+}
+
+/// What of a file's name, in lower case, says its kind: `.style.ron` and the like, else what follows the last dot. Of a mere `.ron` that is
+/// any file in it, as one may forget the rest.
+fn ending(name: &str) -> &str {
+    let kinds = [".style.ron", ".strands.ron", ".motion.ron"];
+    let of_two_parts = kinds.into_iter().find(|kind| name.ends_with(kind));
+    of_two_parts.unwrap_or_else(|| name.rfind('.').map_or("", |dot| &name[dot..]))
 }
 
 /// Why there is no frame.
@@ -323,4 +347,61 @@ pub enum StageError {
     /// The paths cannot be made.
     #[error(transparent)]
     Path(#[from] stroke_path::PathError),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_offered_for_one_of_its_kind_alone() {
+        let names = [
+            "bob.strands.ron",
+            "bob.style.ron",
+            "link.ron",
+            "look0.png",
+            "skin.PNG",
+        ]
+        .map(String::from);
+        for (wrong, near) in [
+            ("bobb.style.ron", Some("bob.style.ron")),
+            ("BOB2.Style.ron", Some("bob.style.ron")),
+            ("skim.png", Some("skin.PNG")),
+            ("look1.png", Some("look0.png")),
+            // Who forgets the first part of the ending, or mistypes it.
+            ("bob.ron", Some("bob.style.ron")),
+            ("bob.stlye.ron", Some("bob.style.ron")),
+            ("bob.strand.ron", Some("bob.strands.ron")),
+            ("lnik.ron", Some("link.ron")),
+            // The preset that names the style, and a style where a script is meant.
+            ("link.style.ron", None),
+            ("mine.style.ron", None),
+            ("bob.motion.ron", None),
+            // All that is alike is the ending.
+            ("nope.png", None),
+            ("mine.ron", None),
+            ("look0.jpg", None),
+            ("look0.obj", None),
+        ] {
+            assert_eq!(meant_file(wrong, &names), near, "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_file_that_is_not_there_is_told_with_the_nearest_or_a_hint() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["link.ron", "look0.png", "bob.style.ron"] {
+            std::fs::write(folder.path().join(name), "").unwrap();
+        }
+        let told = |name: &str| no_file(&folder.path().join(name), "; look there");
+        assert_eq!(told("link.ron"), None);
+        for (name, end) in [
+            ("mine.style.ron", "mine.style.ron`; look there"),
+            ("nope.png", "nope.png`; look there"),
+            ("bo.style.ron", ", did you mean `bob.style.ron`?"),
+        ] {
+            let told = told(name).unwrap();
+            assert!(told.ends_with(end), "{told}");
+        }
+    }
 }

@@ -50,7 +50,7 @@ mod zones;
 
 pub use bake::{Bake, is_bake};
 pub use bodies::{BODIES, BodyKeySection, BodyOn, BodySection, BodyShape, NamedBody};
-pub use check::{check_hair, check_mesh, check_motion, check_style, is_mesh_file};
+pub use check::{check_hair, check_mesh, check_motion, check_style, is_hair_file, is_mesh_file};
 pub use closed::Return;
 pub use dynamics::{DynamicsSection, FeelChoice, ShapeChoice, SolverChoice};
 pub use files::{Files, StageError, no_file};

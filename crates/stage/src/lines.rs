@@ -103,8 +103,9 @@ impl HeadLines {
     }
 
     /// The whole frames through which contours are still to be followed before they are looked for in frame `now`: none where they aren't followed. Where time
-    /// went back they begin anew.
-    pub fn frames_before(&mut self, now: f64) -> Range<i64> {
+    /// went back they begin anew: of what goes round in so many frames, a round before the one that `now` is in, so that they come out of each round as they
+    /// went into it.
+    pub fn frames_before(&mut self, now: f64, round: Option<f64>) -> Range<i64> {
         let is_followed = self.followed.iter().any(Option::is_some);
         if !is_followed || !now.is_finite() {
             return 0..0;
@@ -119,7 +120,10 @@ impl HeadLines {
         }
         let first = match self.at {
             Some(at) => (at + SAME_FRAME).floor() as i64 + 1,
-            None => now.floor().min(0.0) as i64,
+            None => match round {
+                Some(round) => (((now / round).floor() - 1.0) * round).floor() as i64,
+                None => now.floor().min(0.0) as i64,
+            },
         };
         first..(now - SAME_FRAME).ceil() as i64
     }

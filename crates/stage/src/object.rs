@@ -95,7 +95,7 @@ impl Object {
         if hair.has_own_colors() {
             notes.extend(look.shades_note());
         }
-        zones::check(&preset.layers, &hair, files.hair.is_some(), notes)?;
+        zones::check(&preset.layers, &hair, preset.is_on_other_hair(files), notes)?;
         let (wears_ties, is_given) = (!hair.ornaments.is_empty(), files.head.is_some());
         head::layers::check(&preset.layers, head.as_ref(), wears_ties, is_given, notes)?;
         let (listed, layers) = (&preset.lines, &preset.layers);

@@ -55,6 +55,8 @@ pub struct Preset<'r> {
     bases: Vec<PathBuf>,
     /// Where its sections and lists stand, in the file or in a base.
     parts: Vec<(String, Place)>,
+    /// Whether [`Self::set`] gave it other hair than the file's.
+    has_other_hair: bool,
 }
 
 /// A place where a preset names a file.
@@ -94,6 +96,7 @@ impl<'r> Preset<'r> {
             named: Vec::new(),
             bases: Vec::new(),
             parts: Vec::new(),
+            has_other_hair: false,
         }
     }
 
@@ -384,7 +387,13 @@ impl<'r> Preset<'r> {
         set_text(section, owner, param, text)?;
         // What the file says is no longer what is meant.
         self.forget_named(owner, param);
+        self.has_other_hair |= (owner, param) == ("hair", "file");
         Ok(())
+    }
+
+    /// Whether its hair is not that which the file was made for: the caller gives another file, or has set one.
+    pub(crate) fn is_on_other_hair(&self, files: &Files) -> bool {
+        files.hair.is_some() || self.has_other_hair
     }
 
     fn forget_named(&mut self, section: &str, param: &str) {

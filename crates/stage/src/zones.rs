@@ -26,8 +26,8 @@ pub(crate) fn left_out_by(hair: &HairModel, look: &Look) -> Vec<u32> {
     hair.infos.iter().map(|info| of_strand(info.id)).collect()
 }
 
-/// That the zones which layers name are there. Hair that the caller gave in place of the preset's may lack them, and hair without a
-/// style has none: that is noted.
+/// That the zones which layers name are there. Hair that the caller gave or set in place of the preset's may lack them, and hair without
+/// a style has none: that is noted.
 ///
 /// # Errors
 ///

@@ -173,3 +173,29 @@ fn hair_that_is_given_may_lack_them() {
         );
     }
 }
+
+/// Hair that is set is given, as by an option: a look is tried on it.
+#[test]
+fn hair_that_is_set_may_lack_them() {
+    let folder = folder("set-hair");
+    fs::write(
+        folder.join("other.style.ron"),
+        STYLE.replace("tail-left", "braid"),
+    )
+    .unwrap();
+    let registry = registry();
+    let text = preset("(effect: \"hair.base\", zones: \"tail*\")");
+    let mut preset = Preset::parse("look.ron", &text, &registry).unwrap();
+    preset.set("hair.file", "other.style.ron").unwrap();
+    let files = in_folder(&folder);
+    let stage = Stage::new(&preset, &files).unwrap();
+    let notes = stage.notes().join("\n");
+    let note = "hair.base.zones: the hair's style has no zone `tail*`";
+    assert!(notes.contains(note), "{notes}");
+    preset.check_scene("look.ron", &text, &files).unwrap();
+
+    // Where something else is set, the file's own hair must have them.
+    let mut preset = Preset::parse("look.ron", &text.replace("tail*", "tial*"), &registry).unwrap();
+    preset.set("hair.guides", "3").unwrap();
+    assert!(Stage::new(&preset, &files).is_err());
+}

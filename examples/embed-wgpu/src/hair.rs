@@ -2,6 +2,7 @@
 
 use crate::Outcome;
 use crate::view::View;
+use effects::{Registry, RegistryError};
 use render::gpu::{PassFormat, Renderer};
 use stage::{Files, Preset, Stage};
 use std::path::{Path, PathBuf};
@@ -20,8 +21,22 @@ pub struct Hair {
     renderer: Renderer,
 }
 
+/// The effects that presets may name: all that come with inkstrand. A program's own come beside them, and a program that knows its looks
+/// may leave out the crates that they don't use.
+///
+/// # Errors
+///
+/// When two effects have one id.
+pub fn registry() -> Result<Registry, RegistryError> {
+    let mut registry = Registry::new();
+    effects_builtin::register(&mut registry)?; // strokes of hair
+    effects_cartoon::register(&mut registry)?; // what paints hair and meshes
+    effects_surface::register(&mut registry)?; // lines of meshes
+    Ok(registry)
+}
+
 impl Hair {
-    /// Reads a preset and its files, and a script of motion in place of the preset's.
+    /// Reads a preset and its files, and a script of motion in place of the preset's. Objects of a preset move as their own presets say.
     ///
     /// # Errors
     ///
@@ -34,14 +49,14 @@ impl Hair {
     ) -> Outcome<Self> {
         let name = preset.display().to_string();
         let text = std::fs::read_to_string(preset).map_err(|error| format!("{name}: {error}"))?;
-        let mut registry = effects::Registry::new();
-        effects_builtin::register(&mut registry)?; // effects of your own come beside them
-        let files = Files {
+        let registry = registry()?;
+        let mut files = Files {
             preset_folder: preset.parent().unwrap_or(Path::new("")).to_owned(),
-            motion,
             ..Files::default()
         };
         let mut preset = Preset::parse(&name, &text, &registry)?;
+        // A script is for one head.
+        files.motion = motion.filter(|_| preset.objects.is_empty());
         // Presets are made for the frame rates of film.
         preset.sections.scene.fps = STEPS_PER_SECOND;
         Ok(Self {
@@ -81,5 +96,29 @@ impl Hair {
     /// Puts the prepared hair and head into the program's render pass.
     pub fn render(&self, pass: &mut wgpu::RenderPass<'_>) {
         self.renderer.render(pass);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_preset_that_comes_with_inkstrand_is_read() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../presets");
+        let registry = registry().unwrap();
+        let mut read = 0;
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_none_or(|ending| ending != "ron") {
+                continue;
+            }
+            let text = std::fs::read_to_string(&path).unwrap();
+            if let Err(mistakes) = Preset::parse(&path.to_string_lossy(), &text, &registry) {
+                panic!("{mistakes}");
+            }
+            read += 1;
+        }
+        assert!(read > 40, "{read} presets");
     }
 }

@@ -15,7 +15,7 @@ struct Options {
     /// The hair's look.
     #[arg(default_value = concat!(env!("CARGO_MANIFEST_DIR"), "/../../presets/twin-tails.ron"))]
     preset: PathBuf,
-    /// How head and wind move.
+    /// How head and wind move, but for objects, which move as their own presets say.
     #[arg(long, value_name = "FILE", default_value = concat!(env!("CARGO_MANIFEST_DIR"), "/breeze.motion.ron"))]
     motion: PathBuf,
     /// Writes one frame as PNG, without a window.

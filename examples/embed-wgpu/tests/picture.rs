@@ -172,6 +172,25 @@ fn in_a_pass_with_one_sample() {
     Pictures::draw(gpu, 1, DepthRange::Forward).check();
 }
 
+/// They have their own motion, in place of the program's.
+#[test]
+fn objects_of_a_preset_are_drawn() {
+    let Some(gpu) = gpu() else { return };
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let settings = PassSettings {
+        color: picture::FORMAT,
+        samples: 4,
+        depth: DepthRange::Forward,
+    };
+    let motion = Some(root.join("breeze.motion.ron"));
+    let mut demo = Demo::open(gpu, settings, &root.join("tests/look/two.ron"), motion).unwrap();
+    let mut draw = |shown| picture::draw(&mut demo, SIZE, 0.0, Orbit::START, shown).unwrap();
+    let (hair, sky) = (draw(HAIR), draw(SKY));
+    let pixels = hair.pixels.iter().zip(&sky.pixels);
+    let drawn = pixels.filter(|(hair, sky)| hair != sky).count();
+    assert!(drawn > hair.pixels.len() / 20, "{drawn} pixels of hair");
+}
+
 #[test]
 fn what_cannot_be_drawn_is_an_error() {
     let Some(first) = gpu() else { return };

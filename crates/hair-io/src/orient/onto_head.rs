@@ -64,11 +64,6 @@ pub(super) fn place(
     // All of a scalp lies around the head's middle.
     let is_around = |o: &Orientation| {
         let middle = o.apply(sphere.center.as_vec3());
-        eprintln!(
-            "{o:?} {} {}",
-            middle.distance(frame.center) / frame.height,
-            misfit(o)
-        );
         given.offset.is_some()
             || !cloud.is_scalp
             || middle.distance(frame.center) < MIDDLE * frame.height

@@ -6,7 +6,9 @@ use crate::paths::file_name;
 use crate::say::say;
 use crate::{Failure, counted};
 use effects::Registry;
-use stage::{Files, Preset, check_hair, check_mesh, check_motion, check_style, is_mesh_file};
+use stage::{
+    Files, Preset, check_hair, check_mesh, check_motion, check_style, is_hair_file, is_mesh_file,
+};
 use std::fs;
 use std::io::{self, IsTerminal as _};
 use std::path::{Path, PathBuf};
@@ -83,7 +85,7 @@ fn files_in(folder: &Path) -> Result<Vec<PathBuf>, String> {
 /// What is wrong with a file of the kind that its name says.
 fn mistakes_of(path: &Path, registry: &Registry) -> Vec<String> {
     let name = path.display().to_string();
-    if name.ends_with(".strands.ron") || name.ends_with(".tfx") {
+    if is_hair_file(path) {
         let wrong = check_hair(path).err();
         return wrong.map(|error| error.to_string()).into_iter().collect();
     }

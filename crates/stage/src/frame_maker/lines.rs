@@ -76,12 +76,14 @@ impl ObjectLines {
             lines => lines.insert(HeadLines::new(neck, sets, rest_head)?),
         };
         let now = time.frame();
-        for frame in lines.frames_before(now) {
+        let script = object.script();
+        let round = script.period.filter(|_| script.closes);
+        for frame in lines.frames_before(now, round.map(|seconds| seconds * time.fps)) {
             // Where the script has the head then; a hand that turns it live isn't asked.
             let frame = frame as f64;
             let time_s = time_of_frame(frame, time.fps);
             let held = held_time(&look.sections.motion, time.fps as f32, time_s);
-            let pose = object.script().head_at(held);
+            let pose = script.head_at(held);
             if lines.stays(sight.camera(), pose, frame) {
                 continue;
             }

@@ -48,6 +48,43 @@ fn a_late_frame_is_that_of_the_sequence_at_any_rate() {
     }
 }
 
+/// What has grown or gone by the end of a round isn't otherwise at its start.
+#[test]
+fn lines_come_round_in_a_loop() {
+    let folder = tempfile::tempdir().unwrap();
+    let script = folder.path().join("loop.motion.ron");
+    fs::write(&script, "(version: 1, period: 1.5, loop: true)").unwrap();
+    let files = Files {
+        motion: Some(script),
+        ..Files::default()
+    };
+    let lines = "(name: \"rim\", kind: \"contour, crease\", crease: 24)";
+    let make = || {
+        things_of(
+            "(shape: wings, turn: (38, 0, 0), beat: 2)",
+            lines,
+            CHALK,
+            &files,
+        )
+        .unwrap()
+    };
+    let at = |stage: &mut Stage, frame: u32| {
+        stage.advance_to(frame as f32 / 24.0).unwrap();
+        stage.frame().unwrap().paths.center.to_vec()
+    };
+    let mut all = make();
+    let rounds: Vec<_> = (0..73).map(|frame| at(&mut all, frame)).collect();
+    let is_alike = |frame: &usize| {
+        let (one, other) = (&rounds[*frame], &rounds[*frame + 36]);
+        one.len() == other.len() && one.iter().zip(other).all(|(a, b)| a.distance(*b) < 0.01)
+    };
+    assert!(is_alike(&0) && is_alike(&36));
+    // In a few the last digits of a time decide what is seen: wings stand edge on.
+    let alike = (0..37).filter(is_alike).count();
+    assert!(alike >= 33, "{alike}");
+    assert!(at(&mut make(), 70) == rounds[70], "alone");
+}
+
 /// As `--time` asks for them, and as what is blurred by motion is made of.
 #[test]
 fn moments_between_frames_follow_the_one_before_and_are_not_followed() {
