@@ -29,7 +29,7 @@ const BESIDE: f64 = 1e-3;
 /// A border is moved through no more than this share of a piece, in steps that double, and then to one of them over 2 to the power of this.
 const MOST_MOVED: f64 = 0.5;
 const SETTLINGS: usize = 8;
-/// By how many sagittas a ray starts before the triangles: the corner of one is up to 4/3 of an edge's below the smooth surface.
+/// By how many sagittas a ray starts before the triangles: the corner of one is up to 4/3 of an edge's below the smooth surface. Less where something else is nearer.
 const CLEARANCE: f64 = 2.0;
 /// Within so many of the last digits of f32 two places are one.
 const SAME_PLACE: f64 = 8.0 * f32::EPSILON as f64;
@@ -67,7 +67,7 @@ pub enum Cut {
 /// the eye, also near to it; of what is to hide each other, make one mesh.
 ///
 /// The cost is near to `n log n` in the lines' segments and crossings, two rays for each piece, up to 28 where they disagree, and two for each border between what is seen and what isn't,
-/// some 20 where it is moved.
+/// some 20 where it is moved. A contour's ray has a second, short one before it.
 ///
 /// # Errors
 ///
@@ -517,8 +517,9 @@ impl<'a> Rays<'a> {
                 } else {
                     1.0
                 };
-                let origin = point + normal * (side * CLEARANCE * self.surface.sagitta(triangle));
+                let way = normal * (side * CLEARANCE * self.surface.sagitta(triangle));
                 let is_around = |t: u32| triangles[t as usize].iter().any(|v| corners.contains(v));
+                let origin = point + way * self.free_share(point, way, is_around);
                 !self
                     .bvh
                     .is_blocked(self.surface, &self.ray(origin), is_around)
@@ -531,6 +532,25 @@ impl<'a> Rays<'a> {
                     .is_blocked(self.surface, &self.ray(point), has_edge)
             }
         }
+    }
+
+    /// How much of a way from a line a ray may start along: all of it, or half of that to the first triangle that isn't around. Beyond one it would start on
+    /// the other side of what hides the line, where coarse triangles lie in or near to others.
+    fn free_share(&self, point: DVec3, way: DVec3, is_around: impl Fn(u32) -> bool) -> f64 {
+        let ray = Ray {
+            origin: point,
+            direction: way,
+            from: 0.0,
+            to: 1.0,
+        };
+        let mut first = 2.0_f64;
+        self.bvh.hits(self.surface, &ray, |hit| {
+            if hit.distance < first && !is_around(hit.triangle) {
+                first = hit.distance;
+            }
+            ControlFlow::Continue(())
+        });
+        0.5 * first
     }
 
     fn ray(&self, origin: DVec3) -> Ray {

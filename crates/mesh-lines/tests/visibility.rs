@@ -292,6 +292,29 @@ fn pieces_agree_with_a_ray_for_each_place() {
     }
 }
 
+/// The smooth surface of a coarse ring is far off its triangles: beyond the skin of the ball that it lies in.
+#[test]
+fn a_coarse_ring_in_a_ball_is_hidden_by_it() {
+    let ball = 1.0;
+    let shape = sphere(32, DVec3::ZERO, ball).and(torus([8, 4], 0.9, 0.08).moved(turned));
+    let (surface, bvh) = (shape.surface(), shape.bvh());
+    let (mut inside, mut outside) = (0, 0);
+    for eye in eyes(64, 3.0, 8.0) {
+        let view = View::perspective(eye.as_vec3()).unwrap();
+        let lines = shape.lines(&view);
+        for span in visible(&surface, &bvh, &view, &lines, 0.0).unwrap() {
+            let point = lines[span.line].position(0.5 * (span.start + span.end));
+            match point.length() < 0.985 * ball {
+                true => inside += 1,
+                false => outside += 1,
+            }
+        }
+    }
+    assert_eq!(inside, 0, "seen through the ball");
+    // Its own outline is there.
+    assert!(outside >= 64, "{outside}");
+}
+
 fn turned(p: Vec3) -> Vec3 {
     glam::Quat::from_rotation_y(0.7) * glam::Quat::from_rotation_x(0.3) * p
 }
