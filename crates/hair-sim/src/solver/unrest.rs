@@ -27,7 +27,7 @@ const MOVES: f64 = 2.5e-4;
 const STICKS: f64 = 5e3;
 
 /// What jams goes to and fro and gets nowhere: over so many seconds, roughly, it is no farther from where it was than this share of its way. A step in which it gets
-/// on takes away this share of one in which it doesn't, so that what swings with a period of half a second or more never counts.
+/// on takes away so many in which it doesn't, so that what swings with a period of half a second or more never counts.
 const LATE: f64 = 0.15;
 const SOMEWHERE: f64 = 0.3;
 const GETS_ON: f64 = 1.0;
