@@ -377,4 +377,29 @@ mod tests {
         let larger = object.with_hair(larger).unwrap();
         assert!(!Arc::ptr_eq(larger.bodies(), bodies));
     }
+
+    /// As a live program loads it after each edit, with the same heads in its files.
+    #[test]
+    fn a_scene_that_is_loaded_again_keeps_hair_out_by_what_was_made() {
+        let registry = effects::Registry::new();
+        let text = r#"(version: 1, head: (shape: figure), hair: (file: "styles/pixie.style.ron"), layers: [])"#;
+        let preset = Preset::parse("look.ron", text, &registry).unwrap();
+        let presets = concat!(env!("CARGO_MANIFEST_DIR"), "/../../presets");
+        let load = |files: &Files| {
+            let look = Arc::new(Look::new(&preset, files).unwrap());
+            Object::load(&preset, files, look, &mut Vec::new()).unwrap()
+        };
+        let files = Files {
+            preset_folder: presets.into(),
+            ..Files::default()
+        };
+        let first = load(&files);
+        let again = load(&files.clone());
+        assert!(Arc::ptr_eq(first.bodies(), again.bodies()));
+        let other = Files {
+            preset_folder: presets.into(),
+            ..Files::default()
+        };
+        assert!(!Arc::ptr_eq(first.bodies(), load(&other).bodies()));
+    }
 }

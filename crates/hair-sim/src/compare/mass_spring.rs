@@ -119,7 +119,7 @@ pub struct Zigzag {
     rest_frames: Vec<DQuat>,
     /// Where the head was.
     head: Pose,
-    /// Seconds since the start.
+    /// Of the time and the wind since the start.
     blown: Blown,
     points: Vec<DVec3>,
     velocities: Vec<DVec3>,

@@ -108,7 +108,7 @@ pub struct Rod {
     /// Root and frame of the skin in style space, and where the head was.
     root: (DVec3, DQuat),
     head: Pose,
-    /// Seconds since the start.
+    /// Of the time and the wind since the start.
     blown: Blown,
     points: Vec<DVec3>,
     velocities: Vec<DVec3>,

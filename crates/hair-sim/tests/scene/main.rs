@@ -16,7 +16,9 @@ mod swings;
 mod wind;
 
 use glam::{DVec3, Vec3};
-use hair_sim::{Collider, Material, Natural, Params, Solver, State, Strands, Surroundings, Wind};
+use hair_sim::{
+    Collider, Material, Natural, Params, Pose, Roots, Solver, State, Strands, Surroundings, Wind,
+};
 
 /// Metres.
 const LENGTH: f64 = 0.2;
@@ -29,6 +31,21 @@ fn straight(root: Vec3, direction: Vec3) -> Strands {
     let mut strands = Strands::new();
     strands.push(7, &points, None).unwrap();
     strands
+}
+
+/// A strand of `links` links that hangs by `root`, `length` metres long.
+fn line(root: Vec3, links: usize, length: f32) -> Vec<Vec3> {
+    let point = |i: usize| root - Vec3::Y * (length * i as f32 / links as f32);
+    (0..=links).map(point).collect()
+}
+
+/// A step with roots on a head that is there, where nothing else acts but gravity.
+fn step_on(head: Pose, solver: &mut Solver, state: &mut State, dt: f64) {
+    let surroundings = Surroundings {
+        roots: Roots::Head(head),
+        ..Surroundings::default()
+    };
+    solver.step(state, &surroundings, dt).unwrap();
 }
 
 fn params(gamma: f64) -> Params {

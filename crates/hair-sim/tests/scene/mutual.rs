@@ -3,7 +3,7 @@ use hair_sim::{
     Acceleration, Mutual, Params, Pose, Roots, Solver, State, Strands, Surroundings, Wind,
 };
 
-use crate::params;
+use crate::{line, params, step_on};
 
 /// A row of hanging strands, 6 mm apart.
 fn row(count: u32) -> Strands {
@@ -187,10 +187,7 @@ fn stiff_links_come_to_rest() {
         let mut rest = Strands::new();
         for i in 0..40_u32 {
             let root = Vec3::new(0.006 * (i % 8) as f32, 1.6, 0.006 * (i / 8) as f32);
-            let points: Vec<Vec3> = (0..=16)
-                .map(|k| root - Vec3::Y * (0.25 * k as f32 / 16.0))
-                .collect();
-            rest.push(i, &points, None).unwrap();
+            rest.push(i, &line(root, 16, 0.25), None).unwrap();
         }
         let (mut solver, mut state) = Solver::new(&rest, &Params::default()).unwrap();
         let mutual = Mutual {
@@ -202,20 +199,11 @@ fn stiff_links_come_to_rest() {
         let mut late = 0.0_f64;
         for frame in 0..(20.0 / dt) as i32 {
             let time = f64::from(frame) * dt;
-            let roots = Roots::Head(Pose {
+            let head = Pose {
                 translation: DVec3::X * 0.1 * (time.min(0.5) * std::f64::consts::TAU).sin(),
                 ..Pose::IDENTITY
-            });
-            solver
-                .step(
-                    &mut state,
-                    &Surroundings {
-                        roots,
-                        ..Default::default()
-                    },
-                    dt,
-                )
-                .unwrap();
+            };
+            step_on(head, &mut solver, &mut state, dt);
             if time > 15.0 {
                 for strand in 0..solver.len() {
                     let speeds = solver.velocities(&state, strand).map(DVec3::length);

@@ -2,9 +2,11 @@
 
 use glam::{DQuat, DVec3, Vec3};
 use hair_sim::{
-    GRAVITY, Material, Natural, Params, Pose, Profile, Roots, Solver, State, Strands, Surroundings,
+    GRAVITY, Material, Natural, Params, Pose, Profile, Solver, State, Strands, Surroundings,
 };
 use std::f64::consts::TAU;
+
+use crate::{line, step_on};
 
 /// What a strand of a style is made of: weight against stiffness, damping in s, drag in 1/s, pull to the style in 1/s^2.
 struct Hair {
@@ -151,10 +153,8 @@ fn hair_swings_alike_at_any_rate_of_frames() {
 fn a_tiny_step_changes_little() {
     let run = |tiny: Option<f64>| {
         let mut rest = Strands::new();
-        let points: Vec<Vec3> = (0..=16)
-            .map(|k| Vec3::new(0.0, 1.6 - 0.25 * k as f32 / 16.0, 0.1))
-            .collect();
-        rest.push(0, &points, None).unwrap();
+        let root = Vec3::new(0.0, 1.6, 0.1);
+        rest.push(0, &line(root, 16, 0.25), None).unwrap();
         let (mut solver, mut state) = Solver::new(&rest, &Params::default()).unwrap();
         let (mut time, mut tips) = (0.0_f64, Vec::new());
         for frame in 0..180 {
@@ -165,20 +165,11 @@ fn a_tiny_step_changes_little() {
             };
             for dt in steps {
                 time += dt;
-                let roots = Roots::Head(Pose {
+                let head = Pose {
                     rotation: DQuat::from_rotation_y(0.6 * (4.0 * time).sin()),
                     translation: DVec3::X * 0.1 * (5.0 * time).sin(),
-                });
-                solver
-                    .step(
-                        &mut state,
-                        &Surroundings {
-                            roots,
-                            ..Default::default()
-                        },
-                        dt,
-                    )
-                    .unwrap();
+                };
+                step_on(head, &mut solver, &mut state, dt);
             }
             tips.push(solver.points(&state, 0).last().unwrap());
         }

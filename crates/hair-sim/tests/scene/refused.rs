@@ -6,11 +6,7 @@ use hair_sim::{
     Surroundings,
 };
 
-/// A strand of `links` links that hangs by `root`, `length` metres long.
-fn line(root: Vec3, links: usize, length: f32) -> Vec<Vec3> {
-    let point = |i: usize| root - Vec3::Y * (length * i as f32 / links as f32);
-    (0..=links).map(point).collect()
-}
+use crate::line;
 
 /// A body whose rotation isn't a unit quaternion is refused, as a head is.
 #[test]

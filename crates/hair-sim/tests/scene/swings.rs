@@ -3,18 +3,7 @@
 use glam::{DQuat, DVec3, Vec3};
 use hair_sim::{Anchor, Collider, Params, Pose, Roots, Shape, Solver, Strands, Surroundings};
 
-/// A strand of `links` links that hangs by `root`, `length` metres long.
-fn line(root: Vec3, links: usize, length: f32) -> Vec<Vec3> {
-    let point = |i: usize| root - Vec3::Y * (length * i as f32 / links as f32);
-    (0..=links).map(point).collect()
-}
-
-fn head(x: f64) -> Roots<'static> {
-    Roots::Head(Pose {
-        rotation: DQuat::IDENTITY,
-        translation: DVec3::X * x,
-    })
-}
+use crate::{line, step_on};
 
 /// From 0 to 1 as time does, without a jolt.
 fn ease(t: f64) -> f64 {
@@ -42,17 +31,11 @@ fn locks_that_swing_come_back() {
     };
     let (mut solver, mut state) = Solver::new(&rest, &params).unwrap();
     for frame in 1..=60 * 20 {
-        let roots = head(0.25 * ease(f64::from(frame) * DT / 0.25));
-        solver
-            .step(
-                &mut state,
-                &Surroundings {
-                    roots,
-                    ..Default::default()
-                },
-                DT,
-            )
-            .unwrap();
+        let head = Pose {
+            translation: DVec3::X * 0.25 * ease(f64::from(frame) * DT / 0.25),
+            ..Pose::IDENTITY
+        };
+        step_on(head, &mut solver, &mut state, DT);
     }
     let off = |i: usize| {
         let styled = rest.strand(i).last().unwrap().as_dvec3() + DVec3::X * 0.25;
