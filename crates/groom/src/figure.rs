@@ -1,6 +1,7 @@
 //! The figure: the bust's skull with a face, a body and a dress that a preset chooses.
 
 mod body;
+mod crop;
 mod dress;
 mod face;
 mod planes;
@@ -69,7 +70,7 @@ impl Figure {
             .map(|p| above_hairline(&shell, *p))
             .collect();
 
-        for piece in self.pieces() {
+        for piece in self.pieces(cut_height) {
             let first = positions.len() as u32;
             let own = normals_of(&piece);
             shade.extend(own.iter().map(|_| 0.0));
@@ -138,8 +139,8 @@ impl Figure {
         (net, cloth)
     }
 
-    /// What is sewn on, on both sides.
-    fn pieces(&self) -> Vec<Piece> {
+    /// What is sewn on, on both sides, above the cut.
+    fn pieces(&self, cut_height: f32) -> Vec<Piece> {
         let halves = self.dress.pieces().into_iter().map(|piece| {
             let net = with_image(Net {
                 positions: piece.positions,
@@ -152,7 +153,8 @@ impl Figure {
                 is_lit_as_body: piece.is_lit_as_body,
             }
         });
-        halves.chain(self.dress.middle_pieces()).collect()
+        let pieces = halves.chain(self.dress.middle_pieces());
+        pieces.map(|piece| piece.above(cut_height)).collect()
     }
 }
 
@@ -229,6 +231,21 @@ mod tests {
                     "{dress:?}: each edge has two sides"
                 );
             }
+        }
+    }
+
+    #[test]
+    fn nothing_hangs_below_the_cut() {
+        for dress in [Dress::Collar, Dress::Jacket, Dress::Sailor] {
+            let crop_m = 0.15;
+            let positions = dressed(dress, crop_m).positions.into_iter();
+            let lowest = positions.map(|p| p.y).fold(f32::MAX, f32::min);
+            // The body's own edge lies between coarse cells.
+            let cut_height = body::CHIN - crop_m;
+            assert!(lowest > cut_height - 0.01, "{dress:?}: {lowest}");
+            let pieces = dress.pieces().into_iter().chain(dress.middle_pieces());
+            let hang = pieces.flat_map(|piece| piece.positions);
+            assert!(hang.map(|p| p.y).fold(f32::MAX, f32::min) < cut_height - 0.01);
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::body::{neck_axis, skin};
 use super::planes::smooth;
-use super::sewn::{Lie, Piece, Rows, band, slab};
+use super::sewn::{Lie, Piece, Row, Run, band, slab};
 use crate::solid::melt;
 use glam::{Vec2, Vec3};
 
@@ -225,18 +225,21 @@ fn collar<const N: usize>(
     };
     let (below_fold, above_edge) = (towards(fold, edge), towards(edge, fold));
     let (cloth, line) = (Cloth::Dress, Cloth::Line);
-    band(
-        &[
-            (&base, Lie::At(-depth_m)),
-            (&fold, Lie::Over(0.006)),
-            (&below_fold, Lie::Over(0.006)),
-            (&above_edge, Lie::At(0.005)),
-            (&edge, Lie::At(0.005)),
-        ],
-        &[cloth, line, cloth, line, cloth],
-        Rows::Smooth,
-        |p| dress.distance(p),
-    )
+    let row = |points: &[Vec3], lie, cloth, between| Row {
+        points: points.to_vec(),
+        lie,
+        cloth,
+        between,
+    };
+    let rows = [
+        row(&base, Lie::At(-depth_m), cloth, 0),
+        row(&fold, Lie::Over(0.006), line, 0),
+        // It stands up at the neck and lies on the shoulder: in one piece from the one to the other it would be pleated.
+        row(&below_fold, Lie::Over(0.006), cloth, 5),
+        row(&above_edge, Lie::At(0.005), line, 0),
+        row(&edge, Lie::At(0.005), cloth, 0),
+    ];
+    band(&rows, Run::Smooth, |p| dress.distance(p))
 }
 
 fn folded_collar() -> Piece {
@@ -292,7 +295,7 @@ fn jacket_collar() -> Piece {
         around(0.080, 1.268, 0.044),
         around(0.034, 1.206, 0.070),
     ];
-    collar((base, 0.003), fold, edge, Dress::Jacket)
+    collar((base, 0.006), fold, edge, Dress::Jacket)
 }
 
 /// The row of a sailor's collar from which its stripe goes to the next.
@@ -322,14 +325,22 @@ fn sailor_collar() -> Piece {
         points.collect()
     };
     // Down on the blouse to its edge, a stripe before it, and back under itself; so many rows that no shoulder comes through between two.
-    let mut rows = vec![(row(0.0), Lie::At(-0.002)), (row(0.0), Lie::At(0.004))];
+    let mut rows = vec![(0.0, Lie::At(-0.002)), (0.0, Lie::At(0.004))];
     let shares = [0.125, 0.25, 0.375, 0.5, 0.65, 0.80, 0.86, 1.0];
-    rows.extend(shares.map(|share| (row(share), Lie::At(0.005))));
-    rows.push((row(0.98), Lie::At(-0.002)));
-    let mut cloth = vec![Cloth::Accent; rows.len()];
-    cloth[STRIPE] = Cloth::Dress;
-    let rows: Vec<(&[Vec3], Lie)> = rows.iter().map(|(row, lie)| (&row[..], *lie)).collect();
-    band(&rows, &cloth, Rows::Cornered, |p| Dress::Sailor.distance(p))
+    rows.extend(shares.map(|share| (share, Lie::At(0.005))));
+    rows.push((0.98, Lie::At(-0.002)));
+    let rows = rows.into_iter().enumerate().map(|(i, (share, lie))| Row {
+        points: row(share),
+        lie,
+        cloth: if i == STRIPE {
+            Cloth::Dress
+        } else {
+            Cloth::Accent
+        },
+        between: 0,
+    });
+    let rows: Vec<Row> = rows.collect();
+    band(&rows, Run::Cornered, |p| Dress::Sailor.distance(p))
 }
 
 fn tie(on: impl Fn(Vec3) -> f32) -> Vec<Piece> {
@@ -387,6 +398,7 @@ fn bow(on: impl Fn(Vec3) -> f32) -> Vec<Piece> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::HashMap;
 
     const ALL: [Dress; 6] = [
         Dress::None,
@@ -463,7 +475,8 @@ mod tests {
 
     #[test]
     fn collars_have_no_kinks() {
-        for (dress, rows) in [(Dress::Collar, 5), (Dress::Jacket, 5)] {
+        let rows = 10;
+        for dress in [Dress::Collar, Dress::Jacket] {
             for piece in dress.pieces() {
                 // Each that runs around the neck outside of the cloth.
                 for row in 0..rows {
@@ -478,6 +491,37 @@ mod tests {
                     let most = turns.fold(0.0, f32::max).to_degrees();
                     assert!(most < 42.0, "{dress:?}, row {row}: {most} degrees");
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn collars_are_not_pleated() {
+        let rows = 10;
+        for dress in [Dress::Collar, Dress::Jacket] {
+            for piece in dress.pieces() {
+                // From below the fold to above the edge, but for what closes the end.
+                let last = piece.positions.len() - rows;
+                let falls =
+                    |i: &u32| (2..rows - 2).contains(&(*i as usize % rows)) && (*i as usize) < last;
+                let mut normals = HashMap::new();
+                for triangle in piece
+                    .triangles
+                    .iter()
+                    .filter(|triangle| triangle.iter().all(falls))
+                {
+                    let [a, b, c] = triangle.map(|i| piece.positions[i as usize]);
+                    let normal = (b - a).cross(c - a);
+                    for (from, to) in [(0, 1), (1, 2), (2, 0)] {
+                        normals.insert((triangle[from], triangle[to]), normal);
+                    }
+                }
+                let turns = normals.iter().filter_map(|((from, to), normal)| {
+                    let beside = normals.get(&(*to, *from))?;
+                    Some(normal.angle_between(*beside).to_degrees())
+                });
+                let most = turns.fold(0.0, f32::max);
+                assert!((5.0..40.0).contains(&most), "{dress:?}: {most} degrees");
             }
         }
     }

@@ -49,9 +49,20 @@ pub(crate) enum Lie {
     Over(f32),
 }
 
+/// A row of a band.
+pub(crate) struct Row {
+    /// Where it runs, before it is laid on the surface.
+    pub points: Vec<Vec3>,
+    pub lie: Lie,
+    /// What is between it and the next.
+    pub cloth: Cloth,
+    /// How many rows are put between it and the next, on the straight way from the one to the other or over what lies in it.
+    pub between: usize,
+}
+
 /// How a band's rows run.
 #[derive(Clone, Copy, PartialEq)]
-pub(crate) enum Rows {
+pub(crate) enum Run {
     /// Without kinks.
     Smooth,
     /// With the corners that they are given.
@@ -75,35 +86,51 @@ fn laid(mut p: Vec3, lie: Lie, on: &impl Fn(Vec3) -> f32) -> Vec3 {
     p
 }
 
+/// The first of two ends and so many points between them, on the straight way to the other or `gap` over what lies in it, without a kink.
+fn bridge(ends: [Vec3; 2], count: usize, gap: f32, on: &impl Fn(Vec3) -> f32) -> Vec<Vec3> {
+    const ROUNDS: usize = 12;
+    let share = |i: usize| i as f32 / (count + 1) as f32;
+    let points = (0..=count + 1).map(|i| ends[0].lerp(ends[1], share(i)));
+    let mut points: Vec<Vec3> = points.collect();
+    for _ in 0..ROUNDS {
+        for i in 1..=count {
+            let mean = (points[i - 1] + 2.0 * points[i] + points[i + 1]) / 4.0;
+            points[i] = laid(mean, Lie::Over(gap), on);
+        }
+    }
+    points.pop();
+    points
+}
+
 /// A band from the middle of the back, at x = 0, to its end on one side. `rows` run along it, around its
-/// section, and lie on the surface of `on`; `cloth` is between each row and the next.
-pub(crate) fn band(
-    rows: &[(&[Vec3], Lie)],
-    cloth: &[Cloth],
-    run: Rows,
-    on: impl Fn(Vec3) -> f32,
-) -> Piece {
-    let on_body = |(row, lie): &(&[Vec3], Lie)| -> Vec<Vec3> {
-        let points = curve_in_space(row).into_iter();
-        if run == Rows::Cornered {
-            return points.map(|p| laid(p, *lie, &on)).collect();
+/// section, and lie on the surface of `on`.
+pub(crate) fn band(rows: &[Row], run: Run, on: impl Fn(Vec3) -> f32) -> Piece {
+    let on_body = |row: &Row| -> Vec<Vec3> {
+        let points = curve_in_space(&row.points).into_iter();
+        let points = points.map(|p| laid(p, row.lie, &on)).collect();
+        let (Lie::At(gap) | Lie::Over(gap)) = row.lie;
+        // Of what lies in it nobody sees kinks.
+        if run == Run::Cornered || gap <= 0.0 {
+            return points;
         }
-        let row = points.map(|p| laid(p, *lie, &on)).collect();
-        let (Lie::At(gap) | Lie::Over(gap)) = *lie;
-        match gap > 0.0 {
-            true => {
-                let smooth = smoothed(row).into_iter();
-                smooth.map(|p| laid(p, Lie::Over(gap), &on)).collect()
-            }
-            false => row, // nobody sees it
-        }
+        let smooth = smoothed(points).into_iter();
+        smooth.map(|p| laid(p, Lie::Over(gap), &on)).collect()
     };
-    let rows: Vec<Vec<Vec3>> = rows.iter().map(on_body).collect();
-    let (around, along) = (rows.len() as u32, rows[0].len() as u32);
+    let given: Vec<Vec<Vec3>> = rows.iter().map(on_body).collect();
+    // Each section of the band runs around it.
+    let mut sections = vec![Vec::new(); given[0].len()];
+    let mut cloth = Vec::new();
+    for (i, row) in rows.iter().enumerate() {
+        let next = (i + 1) % rows.len();
+        let (Lie::At(gap) | Lie::Over(gap)) = rows[next].lie;
+        for (k, section) in sections.iter_mut().enumerate() {
+            section.extend(bridge([given[i][k], given[next][k]], row.between, gap, &on));
+        }
+        cloth.resize(sections[0].len(), row.cloth);
+    }
+    let (around, along) = (cloth.len() as u32, sections.len() as u32);
     let mut piece = Piece {
-        positions: (0..along as usize)
-            .flat_map(|i| rows.iter().map(move |row| row[i]))
-            .collect(),
+        positions: sections.concat(),
         triangles: Vec::new(),
         cloth: Vec::new(),
         is_lit_as_body: true,

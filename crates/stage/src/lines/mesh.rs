@@ -34,8 +34,8 @@ pub(super) struct LineMesh {
     fixed: Vec<Line>,
     /// Which form of its numbered files each painted mesh of the head has.
     forms: Vec<usize>,
-    /// The part of each triangle, and what the parts are called.
-    part_of: Vec<u16>,
+    /// The part of each triangle, none where outlines have thinned out and lines end, and what the parts are called.
+    part_of: Vec<Option<u16>>,
     parts: Vec<Vec<String>>,
 }
 
@@ -102,6 +102,13 @@ fn parts(head: &HeadModel) -> Vec<Part<'_>> {
     parts
 }
 
+/// Whether a triangle's outline has half of its width or more: not where a figure is cut off.
+fn is_outlined(head: &HeadModel, of: Of, triangle: &[u32; 3]) -> bool {
+    let width = |corner: &u32| head.outline.get(*corner as usize).copied();
+    let widths = triangle.iter().map(|corner| width(corner).unwrap_or(1.0));
+    !matches!(of, Of::Head) || widths.sum::<f32>() >= 1.5
+}
+
 impl Source {
     fn position(self, head: &HeadModel) -> Vec3 {
         let positions = match self.of {
@@ -138,7 +145,7 @@ impl LineMesh {
                         positions.len() as u32 - 1
                     })
                 }));
-                part_of.push(number);
+                part_of.push(is_outlined(rest, of, triangle).then_some(number));
             }
             part_names.push(name);
         }
@@ -217,7 +224,10 @@ impl LineMesh {
 
     /// Whether a triangle is of what has one of these names.
     pub fn is_called(&self, triangle: u32, names: Names) -> bool {
-        let part = &self.parts[usize::from(self.part_of[triangle as usize])];
+        let Some(part) = self.part_of[triangle as usize] else {
+            return false;
+        };
+        let part = &self.parts[usize::from(part)];
         part.iter().any(|own| names.have(own)) || names.have("")
     }
 
