@@ -1,12 +1,38 @@
-//! How far long work is: a bar on a terminal, or the program that this is a part of; and the work before the first frame.
+//! How far long work is, or that it goes on: on a terminal, or to the program that this is a part of; and the work before the first frame.
 
 use crate::Failure;
 use indicatif::{ProgressBar, ProgressStyle};
 use stage::{Preset, Stage};
 use std::io::IsTerminal as _;
+use std::time::Duration;
 
 /// The most parts that the way to the first frame is gone in.
 const PARTS: u64 = 1000;
+
+/// Shows that something of unknown length goes on, and for how long it has, on a terminal alone.
+pub(super) struct Wait(ProgressBar);
+
+impl Wait {
+    /// It is what goes on: `loading look.ron`.
+    pub fn begin(quiet: bool, what: String) -> Self {
+        if quiet || !std::io::stderr().is_terminal() {
+            return Self(ProgressBar::hidden());
+        }
+        let bar = ProgressBar::new_spinner().with_message(what);
+        let bar = match ProgressStyle::with_template("{spinner} {msg}, {elapsed}") {
+            Ok(style) => bar.with_style(style),
+            Err(_) => bar,
+        };
+        bar.enable_steady_tick(Duration::from_millis(100));
+        Self(bar)
+    }
+}
+
+impl Drop for Wait {
+    fn drop(&mut self) {
+        self.0.finish_and_clear();
+    }
+}
 
 /// How far a command is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,5 +1,6 @@
 //! What `render` and `simulate` share: a preset, changed by options, as a scene.
 
+use super::progress::Wait;
 use super::{check_there, mistakes, preset_folder, read_text};
 use crate::Failure;
 use crate::cli::SceneOptions;
@@ -33,6 +34,7 @@ impl Source {
 
     /// The scene of the preset, which options may have changed; what was guessed about its files is said unless `quiet`.
     pub fn open(&self, preset: &Preset, files: &Files, quiet: bool) -> Result<Stage, Failure> {
+        let wait = Wait::begin(quiet, format!("loading {}", self.name));
         let stage = match Stage::new(preset, files) {
             Ok(stage) => stage,
             // In the words of `inkstrand check`, which knows the places.
@@ -41,6 +43,7 @@ impl Source {
                 return Err(checked.err().map_or_else(|| error.into(), failure));
             }
         };
+        drop(wait);
         if !quiet {
             for note in stage.notes() {
                 say(note);
