@@ -184,7 +184,7 @@ section! {
         width: f32 = number(1.6, 0.0..=50.0).unit("1/300 head height"),
         /// Where light turns to shadow: the cosine to the light.
         threshold: f32 = number(0.1, -1.0..=1.0),
-        /// How far below the chin the figure is cut off; its outline thins out there.
+        /// How far below the chin the figure is cut off; its outline thins out there, and lines of meshes end.
         crop: f32 = number(1.05, 0.5..=2.4).unit("head heights"),
         /// What it wears.
         dress: DressChoice = DressChoice::None.or_another(),
