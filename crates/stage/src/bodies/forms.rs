@@ -6,6 +6,7 @@ use glam::{DVec3, Vec3};
 use hair_sim::{GridError, SignedDistance};
 use mesh_io::Welded;
 use mesh_lines::{Beside, Topology};
+use std::collections::HashSet;
 use std::sync::OnceLock;
 
 /// Cells on the longest side of a form: what is thinner than two of them is not felt.
@@ -94,6 +95,25 @@ impl Form {
         border.map(length).sum::<f32>() > self.longest_side()
     }
 
+    /// Where each triangle is there twice, as programs write what is to be seen from both sides: each of them once. What goes through such a surface
+    /// would come out of it at once.
+    fn single_sided(&self) -> Option<Vec<[u32; 3]>> {
+        let mut known = HashSet::new();
+        let is_new = |triangle: &&[u32; 3]| {
+            // So that 0 and -0 are one place.
+            let place = |i: u32| {
+                (self.positions[i as usize] + Vec3::ZERO)
+                    .to_array()
+                    .map(f32::to_bits)
+            };
+            let mut corners = triangle.map(place);
+            corners.sort_unstable();
+            known.insert(corners)
+        };
+        let once: Vec<[u32; 3]> = self.triangles.iter().filter(is_new).copied().collect();
+        (2 * once.len() == self.triangles.len()).then_some(once)
+    }
+
     fn longest_side(&self) -> f32 {
         let [low, high] = self.bounds();
         (high - low).max_element()
@@ -146,7 +166,9 @@ impl Forms {
     pub fn grid(&self, form: usize) -> &SignedDistance {
         let form = &self.forms[form];
         once(&form.grid, || {
-            SignedDistance::new(&form.positions, &form.triangles, self.cell)
+            let single = form.single_sided();
+            let triangles = single.as_deref().unwrap_or(&form.triangles);
+            SignedDistance::new(&form.positions, triangles, self.cell)
                 .expect("forms are checked when they are read")
         })
     }
@@ -296,6 +318,26 @@ mod tests {
                 .extend([[from, to, to + 3], [from, to + 3, from + 3]]);
         }
         assert!(!pricked.is_open());
+    }
+
+    #[test]
+    fn a_surface_that_is_there_twice_is_felt_once() {
+        let single = cube(0.1);
+        let mut double = single.clone();
+        // As a side of its own with corners of its own, which looks the other way.
+        let first = double.positions.len() as u32;
+        double.positions.extend_from_slice(&single.positions);
+        double
+            .normals
+            .extend(single.normals.iter().map(|normal| -*normal));
+        let other = single
+            .triangles
+            .iter()
+            .map(|[a, b, c]| [first + a, first + c, first + b]);
+        double.triangles.extend(other);
+        let forms = [single, double].map(|form| Forms::new(vec![form], 1.0, End::Stays).unwrap());
+        assert_eq!(forms[0].grid(0), forms[1].grid(0));
+        assert!(forms[1].grid(0).distance(DVec3::ZERO) < -0.09);
     }
 
     #[test]
