@@ -4,7 +4,7 @@
 
 use super::document::{Animation, Document};
 use super::error::GltfError;
-use super::nodes::{read_track, rest_of, target};
+use super::nodes::{bones, read_track, rest_of, target, turn};
 use super::numbers::Buffers;
 use crate::read::shown;
 use crate::rig::{NodeTracks, Transform};
@@ -18,6 +18,8 @@ const MOST_NAMES: usize = 8;
 /// The motion of a bone against its rest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoneMotion {
+    /// What the whole file is turned by.
+    root: DAffine3,
     /// From the outermost parent to the bone.
     chain: Vec<ChainNode>,
     /// Its turn and its place (m) where nothing moves it.
@@ -34,7 +36,7 @@ struct ChainNode {
 }
 
 impl BoneMotion {
-    /// Reads the bone named `bone` of a file's bytes, in the animation of this name or number (0 first), or else in
+    /// Reads the bone named `bone`, by the file or else as VRM has it, of a file's bytes, in the animation of this name or number (0 first), or else in
     /// the first. The case of letters counts only where it tells bones apart. Files that the file names are in `folder`.
     ///
     /// # Errors
@@ -54,6 +56,7 @@ impl BoneMotion {
             tracks: NodeTracks::default(),
         });
         let mut motion = Self {
+            root: turn(&document),
             chain: joints.collect(),
             rest: (DQuat::IDENTITY, DVec3::ZERO),
             length: 0.0,
@@ -121,9 +124,8 @@ impl BoneMotion {
 
     /// The bone's turn and place in the world, its joints being so in their parents' spaces.
     fn pose(&self, local: impl Fn(&ChainNode) -> Transform) -> (DQuat, DVec3) {
-        let world = (self.chain.iter()).fold(DAffine3::IDENTITY, |world, joint| {
-            world * local(joint).affine()
-        });
+        let world =
+            (self.chain.iter()).fold(self.root, |world, joint| world * local(joint).affine());
         let (_, rotation, place) = world.to_scale_rotation_translation();
         (rotation.normalize(), place)
     }
@@ -136,7 +138,12 @@ fn chain_to(document: &Document, bone: &str) -> Result<Vec<usize>, GltfError> {
         (nodes.iter()).position(|node| node.name.as_deref().is_some_and(is))
     };
     let exact = named(&|name| name == bone);
-    let Some(found) = exact.or_else(|| named(&|name| name.eq_ignore_ascii_case(bone))) else {
+    let as_vrm = || {
+        let mut own = bones(document).filter(|(name, node)| name == bone && *node < nodes.len());
+        own.next().map(|(_, node)| node)
+    };
+    let alike = || named(&|name| name.eq_ignore_ascii_case(bone));
+    let Some(found) = exact.or_else(as_vrm).or_else(alike) else {
         let names = nodes.iter().filter_map(|node| node.name.clone());
         return Err(GltfError::Bone {
             wanted: shown(bone),

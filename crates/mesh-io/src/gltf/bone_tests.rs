@@ -107,6 +107,31 @@ fn a_bone_moves_with_its_parents() {
     );
 }
 
+/// A character of VRM 0.x looks along -Z, and her bones have VRM's names whatever the file calls them.
+#[test]
+fn a_bone_of_vrm_0_moves_as_seen_from_where_the_face_is_ours() {
+    let nod = [-QUARTER as f32, 0.0, 0.0, QUARTER as f32];
+    let on = [0.0, 0.0, -1.0, 0.0, 0.0, -3.0];
+    let mut file = character(&[
+        (2, "rotation", "STEP", &[1.0], &nod),
+        (0, "translation", "STEP", &[0.0, 1.0], &on),
+    ]);
+    file["nodes"][2]["name"] = json!("J_Bip_C_Head");
+    let bones = json!([{"bone": "head", "node": 2}, {"bone": "neck", "node": 9}]);
+    file["extensions"] = json!({"VRM": {"humanoid": {"humanBones": bones}}});
+    let nodded = DQuat::from_rotation_x(std::f64::consts::FRAC_PI_2);
+    for bone in ["head", "J_Bip_C_Head"] {
+        let motion = read(&file, bone, None).unwrap();
+        let moved = DVec3::new(0.0, -1.0, 3.0);
+        assert_pose(&motion, 1.0, nodded, moved);
+    }
+    file["nodes"][2]["name"] = json!("head");
+    assert_eq!(
+        read(&file, "head", None).unwrap(),
+        read(&file, "HEAD", None).unwrap()
+    );
+}
+
 #[test]
 fn steps_and_cubics_are_those_of_the_specification() {
     let rise = [0.0, 1.0, 0.0, 0.0, 2.0, 0.0];

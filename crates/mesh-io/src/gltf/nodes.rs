@@ -198,7 +198,7 @@ pub(super) fn missing_bones(document: &Document) -> impl Iterator<Item = String>
 }
 
 /// Bones and the numbers that VRM says are those of their nodes.
-fn bones(document: &Document) -> impl Iterator<Item = (String, usize)> {
+pub(super) fn bones(document: &Document) -> impl Iterator<Item = (String, usize)> {
     let vrm0 = document
         .extensions
         .vrm0
@@ -215,7 +215,7 @@ fn bones(document: &Document) -> impl Iterator<Item = (String, usize)> {
 }
 
 /// Characters of VRM 0.x face -Z.
-fn turn(document: &Document) -> DAffine3 {
+pub(super) fn turn(document: &Document) -> DAffine3 {
     match document.extensions.vrm0 {
         Some(_) => DAffine3::from_scale(DVec3::new(-1.0, 1.0, -1.0)),
         None => DAffine3::IDENTITY,
