@@ -209,6 +209,14 @@ impl Forms {
 pub(crate) fn between(count: usize, rate: f64, end: End, time: f64) -> (usize, usize, f64) {
     let last = count - 1;
     let place = time * rate;
+    // A time in single precision that is a form's may be a little before it, and would show the one before.
+    let slack = place.abs() * f64::from(f32::EPSILON) + 1e-6;
+    let whole = place.round();
+    let place = if whole - place <= slack {
+        place.max(whole)
+    } else {
+        place
+    };
     let place = match end {
         End::First => place.rem_euclid(count as f64),
         End::Round if last > 0 => place.rem_euclid(last as f64),
@@ -275,6 +283,20 @@ mod tests {
         ] {
             let found = [&once, &again, &round].map(|forms| forms.between(time));
             assert_eq!(found, expected, "{time}");
+        }
+        // Each frame has its own form, whatever single precision makes of its time.
+        for rate in [24.0f32, 30.0, 60.0] {
+            for frame in 0..200 {
+                let time = f64::from(frame as f32 / rate);
+                for (end, expected) in [
+                    (End::Stays, frame.min(99)),
+                    (End::First, frame % 100),
+                    (End::Round, frame % 99),
+                ] {
+                    let (from, ..) = between(100, f64::from(rate), end, time);
+                    assert_eq!(from, expected, "{rate} {end:?} {frame}");
+                }
+            }
         }
         // One alone stays whatever comes.
         for end in [End::Stays, End::First, End::Round] {
