@@ -14,6 +14,10 @@ pub(crate) enum Interpolation {
     CubicSpline,
 }
 
+/// A step is taken so much before its key, in s: the time of a frame, in single precision or come round in a loop, can be a little less than
+/// that of the key that it was made from, and would show what was a frame before.
+const EARLY: f64 = 1e-4;
+
 /// A property in time.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Track<T> {
@@ -112,7 +116,11 @@ impl<T: Value> Track<T> {
 
     /// The value at `time` (s), that of the first or the last key outside them.
     pub fn at(&self, time: f64) -> T {
-        let next = self.times.partition_point(|key| *key <= time);
+        let early = match self.kind {
+            Interpolation::Step => EARLY,
+            _ => 0.0,
+        };
+        let next = self.times.partition_point(|key| *key <= time + early);
         let value = |key: usize| match self.kind {
             Interpolation::CubicSpline => self.values[3 * key + 1].whole(),
             _ => self.values[key].whole(),
@@ -164,12 +172,23 @@ mod tests {
             let time = first + (last - first) * share;
             prop_assert!((lines.at(time) - line(time)).abs() < 1e-9);
             prop_assert!((cubics.at(time) - cubic(time)).abs() < 1e-9 * (1.0 + cubic(time).abs() + 1e3));
-            prop_assert!(steps.at(time) <= time && times.contains(&steps.at(time)));
+            prop_assert!(steps.at(time) <= time + EARLY && times.contains(&steps.at(time)));
             for outside in [first - 1.0, f64::NEG_INFINITY] {
                 prop_assert_eq!(lines.at(outside), line(first));
             }
             prop_assert_eq!(cubics.at(f64::INFINITY), cubic(last));
             prop_assert!(lines.at(f64::NAN).is_finite());
+        }
+
+        /// Whatever rounding and rounds of a loop make of the time of a frame.
+        #[test]
+        fn each_frame_has_its_own_step(frame in 0u32..=48, round in 0u32..100, fps in prop::sample::select(vec![12.0f32, 24.0, 25.0, 30.0, 60.0])) {
+            let time_of = |frame: u32| f64::from(frame as f32 / fps);
+            let times: Vec<f64> = (0..=48).map(time_of).collect();
+            let steps = Track::new(times.clone(), times.clone(), Interpolation::Step).unwrap();
+            let length = steps.length();
+            let time = time_of(frame + 48 * round) - f64::from(round) * length;
+            prop_assert_eq!(steps.at(time), times[frame as usize]);
         }
 
         #[test]

@@ -6,6 +6,7 @@ use crate::files::StageError;
 use crate::neck::pivot;
 use crate::painted::PaintedMesh;
 use crate::preset::MotionSection;
+use crate::script::come_round;
 use effects::preset::suggestion;
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec3};
 use hair_io::orient::Orientation;
@@ -196,7 +197,7 @@ impl Skeleton {
     /// The animation's own time at `time`, seconds: before its start and after its end it stays.
     pub fn within(&self, time: f64) -> f64 {
         match self.repeats && self.length > 0.0 {
-            true => time.rem_euclid(self.length),
+            true => come_round(time, self.length),
             false => time.clamp(0.0, self.length),
         }
     }

@@ -59,6 +59,17 @@ impl Below {
     }
 }
 
+/// The time (seconds) within an animation of this length that starts again at its end. What single precision can't tell from its end is its start.
+pub(crate) fn come_round(time: f64, length: f64) -> f64 {
+    let slack = time.abs() * f64::from(f32::EPSILON);
+    let within = time.rem_euclid(length);
+    if length - within <= slack {
+        0.0
+    } else {
+        within
+    }
+}
+
 /// A bone as it moves the head.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Bone {
@@ -74,11 +85,32 @@ impl Bone {
     pub fn at(&self, time: f64) -> (DQuat, DVec3) {
         let length = self.motion.length();
         let time = if self.repeats && length > 0.0 {
-            time.rem_euclid(length)
+            come_round(time, length)
         } else {
             time
         };
         let (rotation, moved) = self.motion.at(time);
         (rotation, moved / self.head_height_m)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_round_of_an_animation_begins_at_its_start() {
+        for fps in [12.0f32, 24.0, 30.0, 60.0] {
+            for frames in 1..80u32 {
+                let length = f64::from(frames as f32 / fps);
+                for round in 0..40 {
+                    let time = f64::from((round * frames) as f32 / fps);
+                    let within = come_round(time, length);
+                    assert!(within < 1e-4, "{fps} {frames} {round}: {within}");
+                }
+            }
+        }
+        assert_eq!(come_round(-0.25, 1.0), 0.75);
+        assert_eq!(come_round(1.5, 1.0), 0.5);
     }
 }

@@ -7,7 +7,7 @@ mod load;
 mod parse;
 mod pose;
 
-pub(crate) use bone::{Below, Bone};
+pub(crate) use bone::{Below, Bone, come_round};
 pub(crate) use load::load;
 pub use parse::MOTION_PARTS;
 pub(crate) use parse::parse;
