@@ -107,7 +107,7 @@ pub struct Studio {
     /// Counts changes of files on the disk.
     files_changed: u64,
     /// Which text the track and sections were read from.
-    read: Option<[Option<(PathBuf, u64)>; 2]>,
+    read: Option<(u64, [Option<(PathBuf, u64)>; 2])>,
     /// Which files are looked after, and what they were.
     last_housekeeping: Instant,
     /// Where the picture was, pixels; 0 before it was anywhere.

@@ -160,7 +160,9 @@ impl Studio {
             let document = documents.get(which)?;
             Some((document.path().to_owned(), document.version()))
         };
+        // What the preset builds on is read with it, and may have changed on the disk.
         let versions = [Which::Preset, Which::Motion].map(version);
+        let versions = (self.files_changed, versions);
         if self.read.as_ref() == Some(&versions) {
             return;
         }
