@@ -129,7 +129,7 @@ impl Figure {
             // The first cells lie across x = 0.
             x: planes_of(-0.00235, 0.23, near(-0.01, 0.095, 0.12, 0.0100)),
             // Wherever it is cut off, the rest is the same: with planes that no two sheets of it share a cell of.
-            y: planes_of(body::CHIN - 0.72, 1.64, near(1.335, 1.52, 0.10, 0.0280))
+            y: planes_of(body::CHIN - 0.725, 1.64, near(1.335, 1.52, 0.10, 0.0280))
                 .into_iter()
                 .filter(|y| *y > bottom - 0.03)
                 .collect(),
