@@ -8,6 +8,19 @@ const MOST_STEPS: usize = 1000;
 /// The most bytes that they have together.
 const MOST_BYTES: usize = 64 << 20;
 
+/// What an edit made of the steps that can be taken back.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// Nothing: the text is what it was.
+    None,
+    /// There is one more.
+    New,
+    /// It is a part of the last one.
+    Same,
+    /// The last one is gone, as its gesture came back to where it began.
+    Gone,
+}
+
 #[derive(Default)]
 pub(crate) struct History {
     /// Texts before the present one, the oldest first.
@@ -22,16 +35,20 @@ pub(crate) struct History {
 
 impl History {
     /// A step from the present text to another one.
-    pub fn edit(&mut self, now: &Arc<str>, next: &str, gesture: Option<u64>) {
+    pub fn edit(&mut self, now: &Arc<str>, next: &str, gesture: Option<u64>) -> Step {
         self.bytes -= self.redo.iter().map(|text| text.len()).sum::<usize>();
         self.redo.clear();
         if gesture.is_none() || gesture != self.gesture {
             self.gesture = gesture;
             self.push(now.clone());
+            Step::New
         } else if let Some(begin) = self.undo.pop_back_if(|begin| **begin == *next) {
             // A drag back to where it began is no step, unless it goes on.
             self.bytes -= begin.len();
             self.gesture = None;
+            Step::Gone
+        } else {
+            Step::Same
         }
     }
 

@@ -28,6 +28,7 @@ mod watch;
 use disk::{Disk, MARK, Seen};
 use hair_io::{ReadError, WholeFile};
 use history::History;
+pub use history::Step;
 use recovery::Copy;
 pub use recovery::{Recovered, Recovery};
 use std::fs::{self, File};
@@ -187,11 +188,13 @@ impl Document {
 
     /// Changes the text. Edits one after the other with the same `gesture`, such as those of a drag, are one step of undo.
     /// The text that is there already is no edit.
-    pub fn edit(&mut self, text: String, gesture: Option<u64>) {
-        if *text != *self.text {
-            self.history.edit(&self.text, &text, gesture);
-            self.take(text.into());
+    pub fn edit(&mut self, text: String, gesture: Option<u64>) -> Step {
+        if *text == *self.text {
+            return Step::None;
         }
+        let step = self.history.edit(&self.text, &text, gesture);
+        self.take(text.into());
+        step
     }
 
     /// Goes back a step; whether there was one.
@@ -434,17 +437,18 @@ impl Document {
     }
 
     /// Takes the text over, as a step that can be undone; the next older copy is [`Document::recovered`] from then on.
-    pub fn accept_recovered(&mut self) {
+    pub fn accept_recovered(&mut self) -> Step {
         if self.recovered.is_empty() {
-            return;
+            return Step::None;
         }
         let recovered = self.recovered.remove(0);
-        self.edit(recovered.text.to_string(), None);
+        let step = self.edit(recovered.text.to_string(), None);
         // Not before this process has a copy of its own.
         self.keep_recovery_copy();
         if self.copy.is_some() && self.copy_error.is_none() {
             recovered.remove();
         }
+        step
     }
 
     /// Removes the copy; the next older one is [`Document::recovered`] from then on.

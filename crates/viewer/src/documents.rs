@@ -1,7 +1,7 @@
 //! The texts that are edited: the preset, and the style and script that it names.
 
 use crate::edit::{Edit, Place};
-use document::{Conflict, DiskChange, Document, OpenError, Recovery, SaveError};
+use document::{Conflict, DiskChange, Document, OpenError, Recovery, SaveError, Step};
 use effects::preset::edit;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -36,13 +36,6 @@ impl Which {
 /// The most steps of undo that are kept, as a text keeps them.
 const MOST_STEPS: usize = 3000;
 
-/// A step of undo.
-#[derive(Clone, Copy, PartialEq)]
-struct Step {
-    text: Id,
-    gesture: Option<u64>,
-}
-
 /// Which of all texts that were open since the preset is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Id(u64);
@@ -56,7 +49,7 @@ pub struct Documents {
     recovery: Recovery,
     wake: Arc<dyn Fn() + Send + Sync>,
     /// The texts of the steps that can be taken back, the last one last, and of those that were.
-    undo: Vec<Step>,
+    undo: Vec<Id>,
     redo: Vec<Id>,
     /// Whether a crash has left copies of what was opened since this was asked last.
     has_copies: bool,
@@ -197,8 +190,8 @@ impl Documents {
             let text = edit
                 .apply(document.text())
                 .map_err(|error| error.to_string())?;
-            document.edit(text, gesture);
-            self.note(which, gesture);
+            let step = document.edit(text, gesture);
+            self.note(which, step);
         }
         self.follow_names();
         Ok(())
@@ -207,18 +200,23 @@ impl Documents {
     /// A text was written by hand.
     pub fn write(&mut self, which: Which, text: String, gesture: Option<u64>) {
         if let Some(document) = self.get_mut(which) {
-            document.edit(text, gesture);
-            self.note(which, gesture);
+            let step = document.edit(text, gesture);
+            self.note(which, step);
         }
         self.follow_names();
     }
 
-    /// Notes a step of undo, where it is another one than the last.
-    fn note(&mut self, which: Which, gesture: Option<u64>) {
+    /// Notes what an edit of a text made of its steps.
+    fn note(&mut self, which: Which, step: Step) {
         let text = self.open[&which];
-        let step = Step { text, gesture };
-        if gesture.is_none() || self.undo.last() != Some(&step) {
-            self.undo.push(step);
+        match step {
+            Step::None => return,
+            Step::New => self.undo.push(text),
+            Step::Same => {}
+            Step::Gone => {
+                let last = self.undo.iter().rposition(|own| *own == text);
+                last.map(|last| self.undo.remove(last));
+            }
         }
         if self.undo.len() > MOST_STEPS {
             self.undo.remove(0);
@@ -234,8 +232,8 @@ impl Documents {
     }
 
     fn undo_step(&mut self) -> bool {
-        while let Some(last) = (self.undo.iter()).rposition(|step| self.is_open(step.text)) {
-            let Step { text, .. } = self.undo.remove(last);
+        while let Some(last) = (self.undo.iter()).rposition(|text| self.is_open(*text)) {
+            let text = self.undo.remove(last);
             if self.texts.get_mut(&text).is_some_and(|(_, own)| own.undo()) {
                 self.redo.push(text);
                 return true;
@@ -257,10 +255,7 @@ impl Documents {
             return false;
         };
         let text = self.redo.remove(last);
-        self.undo.push(Step {
-            text,
-            gesture: None,
-        });
+        self.undo.push(text);
         let done = self.texts.get_mut(&text).is_some_and(|(_, own)| own.redo());
         self.follow_names();
         done
@@ -401,8 +396,8 @@ impl Documents {
     /// Takes on the copy of a text that a crash has left, as a step of undo.
     pub fn accept_recovered(&mut self, which: Which) {
         if let Some(document) = self.get_mut(which) {
-            document.accept_recovered();
-            self.note(which, None);
+            let step = document.accept_recovered();
+            self.note(which, step);
         }
         self.follow_names();
     }

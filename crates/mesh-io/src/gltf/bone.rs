@@ -74,6 +74,10 @@ impl BoneMotion {
                 continue;
             };
             let Some(&joint) = joints.get(&node) else {
+                // Of what moves other bones it matters how long it is: all of an animation starts again at once.
+                let mut others = NodeTracks::default();
+                let until = read_track(&mut others, property, sampler, None, &mut buffers);
+                motion.length = motion.length.max(until.unwrap_or(0.0));
                 continue;
             };
             // Shapes of a face don't move its bones.
@@ -99,7 +103,7 @@ impl BoneMotion {
         Ok(Buffers::files(&document, folder))
     }
 
-    /// When the last key of all that moves the bone is, in s.
+    /// When the last key of the animation is, but for those of shapes, in s.
     #[must_use]
     pub fn length(&self) -> f64 {
         self.length

@@ -69,6 +69,17 @@ fn assert_pose(motion: &BoneMotion, time: f64, turned: DQuat, moved: DVec3) {
 }
 
 #[test]
+fn an_animation_is_as_long_as_all_that_moves_in_it() {
+    let [turn, rise] = [[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0], [0.0; 8]];
+    let file = character(&[
+        (2, "rotation", "LINEAR", &[0.0, 6.0], &turn),
+        (0, "translation", "LINEAR", &[2.0, 4.0], &rise[..6]),
+    ]);
+    // The head's keys are no part of what moves the neck.
+    assert_eq!(read(&file, "neck", None).unwrap().length(), 6.0);
+}
+
+#[test]
 fn a_bone_moves_with_its_parents() {
     // The neck turns to the left by a quarter, then the hips rise.
     let turn = [0.0, 0.0, 0.0, 1.0, 0.0, QUARTER as f32, 0.0, QUARTER as f32];

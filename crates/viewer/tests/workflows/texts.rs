@@ -49,6 +49,45 @@ fn changes_of_different_texts_are_taken_back_in_their_order() {
     assert_eq!(texts(&harness)[0], third);
 }
 
+/// A drag that ends where it began is no step: what is taken back is what was done before it, in whatever text.
+#[test]
+fn a_drag_back_to_its_start_takes_no_step_of_another_text() {
+    use viewer::documents::Which::{Motion, Preset};
+    let looks = Looks::new();
+    let mut harness = viewer(&looks);
+    harness.run_steps(3);
+    let write = |harness: &mut Harness<App>, which, text: &str, gesture| {
+        harness
+            .state_mut()
+            .studio
+            .write(which, text.to_owned(), gesture);
+        harness.step();
+    };
+    let [first, other] = ["1.6", "1.7"].map(|width| LOOK.replace("1.5", width));
+    let second = SCRIPT.replace("40", "50");
+    write(&mut harness, Preset, &first, None);
+    write(&mut harness, Motion, &second, None);
+    write(&mut harness, Preset, &other, Some(7));
+    write(&mut harness, Preset, &first, Some(7));
+    let texts = |harness: &Harness<App>| {
+        let documents = harness.state().studio.documents.as_ref().unwrap();
+        [Preset, Motion].map(|which| documents.get(which).unwrap().text().to_string())
+    };
+    press(&mut harness, COMMAND, Key::Z);
+    assert_eq!(texts(&harness), [first.clone(), SCRIPT.to_owned()]);
+    // Nor is what changes nothing, so that what was taken back can be made again.
+    write(&mut harness, Preset, &first, None);
+    press(
+        &mut harness,
+        Modifiers {
+            shift: true,
+            ..COMMAND
+        },
+        Key::Z,
+    );
+    assert_eq!(texts(&harness), [first, second]);
+}
+
 #[test]
 fn what_is_typed_is_taken_before_it_is_saved() {
     let looks = Looks::new();
