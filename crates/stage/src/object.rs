@@ -83,6 +83,7 @@ impl Object {
             None => load::hair(preset, files, head.as_ref(), notes)?,
         };
         let script = script::load(preset, files, &mut hair, head.as_ref(), &orientation)?;
+        notes.extend(script.below.as_ref().and_then(script::Below::jump_note));
         notes.extend(script.bodies.iter().filter_map(|body| body.open_note()));
         hair.choose_guides(&preset.sections.hair);
         hair.move_out_of_bodies(&script, &preset.sections.dynamics);

@@ -194,6 +194,16 @@ impl Skeleton {
         on_limbs.collect()
     }
 
+    /// How long its animation is, seconds.
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// Whether its animation starts again at its end.
+    pub fn repeats(&self) -> bool {
+        self.repeats
+    }
+
     /// The animation's own time at `time`, seconds: before its start and after its end it stays.
     pub fn within(&self, time: f64) -> f64 {
         match self.repeats && self.length > 0.0 {

@@ -115,6 +115,21 @@ fn the_animation_may_repeat() {
     let half = moment(&mut stage, 0.5);
     assert!(moment(&mut stage, 0.0) != half);
     assert!(moment(&mut stage, 3.5).2[0].distance(half.2[0]) < 1e-6);
+    // Its end is not its start, and that is told where it matters.
+    let jump = |stage: &Stage| {
+        stage
+            .notes()
+            .iter()
+            .filter(|note| note.contains("jumps by"))
+            .cloned()
+            .collect::<Vec<_>>()
+    };
+    let notes = jump(&stage);
+    assert!(
+        notes.len() == 1 && notes[0].contains("90 degrees"),
+        "{notes:?}"
+    );
+    assert_eq!(jump(&scene("gltf: \"walker.gltf\"").unwrap()), [""; 0]);
 }
 
 #[test]

@@ -7,6 +7,12 @@ use hair_io::BoneMotion;
 use render::Head;
 use std::sync::Arc;
 
+/// From this way on, in head heights, or this turn a head jumps: no frame of a motion is so far from the next.
+const JUMP_HEADS: f64 = 0.25;
+const JUMP_DEGREES: f64 = 15.0;
+/// The end of an animation that repeats is so much before its start comes again, as a share of its length.
+const BEFORE_END: f64 = 1e-6;
+
 /// What moves the head below its script.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Below {
@@ -44,6 +50,28 @@ impl Below {
                 (rotation, moved_m / f64::from(head.height_m), Some(time))
             }
         }
+    }
+
+    /// What is to be told of what starts again, where the head isn't where it was at the start by then.
+    pub fn jump_note(&self) -> Option<String> {
+        let (length, repeats) = match self {
+            Self::Bone(bone) => (bone.motion.length(), bone.repeats),
+            Self::Skeleton { skeleton, .. } => (skeleton.length(), skeleton.repeats()),
+        };
+        if !repeats {
+            return None;
+        }
+        let [(turn, moved, _), (last_turn, last_moved, _)] =
+            [0.0, length * (1.0 - BEFORE_END)].map(|time| self.at(time));
+        let (degrees, way) = (
+            turn.angle_between(last_turn).to_degrees(),
+            moved.distance(last_moved),
+        );
+        (degrees > JUMP_DEGREES || way > JUMP_HEADS).then(|| {
+            format!(
+                "motion: where the animation starts again (`repeat`) the head jumps by {way:.2} head heights and {degrees:.0} degrees, which throws hair about; one that is to repeat comes back to its start"
+            )
+        })
     }
 
     /// Whether all that it moves is, at one time (seconds), where it is at another.
