@@ -55,6 +55,9 @@ pub struct Shown {
     pub texture: TextureHandle,
 }
 
+/// How many changes of files on the disk there were, and where preset and script are, in which of their versions.
+type Versions = (u64, [Option<(PathBuf, u64)>; 2]);
+
 /// All that the viewer knows, but for where its panes are.
 pub struct Studio {
     /// The effects that there are.
@@ -107,7 +110,7 @@ pub struct Studio {
     /// Counts changes of files on the disk.
     files_changed: u64,
     /// Which text the track and sections were read from.
-    read: Option<(u64, [Option<(PathBuf, u64)>; 2])>,
+    read: Option<Versions>,
     /// Which files are looked after, and what they were.
     last_housekeeping: Instant,
     /// Where the picture was, pixels; 0 before it was anywhere.

@@ -1,7 +1,7 @@
 //! Presets and what they name, opened, saved, and changed by others.
 
 use crate::common::{LOOK, Looks, recovering, text, viewer, viewer_of, wait_for, wait_for_picture};
-use crate::hands::{COMMAND, click, drag, press, type_path, wait_for_label};
+use crate::hands::{COMMAND, click, drag, press, type_path, undo, wait_for_label};
 use eframe::egui::{Key, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -120,7 +120,7 @@ fn changes_outlive_a_crash() {
     harness.run_steps(3);
     click(&mut harness, "Take the copy");
     assert_eq!(text(&harness), changed);
-    press(&mut harness, COMMAND, Key::Z);
+    undo(&mut harness);
     assert_eq!(text(&harness), LOOK);
 }
 
@@ -154,7 +154,7 @@ fn copies_are_offered_of_styles_that_are_opened_later() {
     };
     assert_eq!(style(&harness), lost);
     assert!(harness.state().studio.prompt.is_none());
-    press(&mut harness, COMMAND, Key::Z);
+    undo(&mut harness);
     assert_eq!(style(&harness), own);
     assert_eq!(text(&harness), renamed);
 }

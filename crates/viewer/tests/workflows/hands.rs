@@ -20,6 +20,16 @@ pub fn press(harness: &mut Harness<App>, modifiers: Modifiers, key: Key) {
     harness.run_steps(2);
 }
 
+/// Takes the last step back.
+pub fn undo(harness: &mut Harness<App>) {
+    press(harness, COMMAND, Key::Z);
+}
+
+/// Makes the step again that was taken back last.
+pub fn redo(harness: &mut Harness<App>) {
+    press(harness, COMMAND.plus(Modifiers::SHIFT), Key::Z);
+}
+
 pub fn picture(harness: &Harness<App>) -> Rect {
     harness.get_by_label("The picture").rect()
 }

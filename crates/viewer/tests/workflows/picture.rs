@@ -1,7 +1,7 @@
 //! What an author does on the picture, and sees in it.
 
 use crate::common::{LOOK, Looks, text, viewer, wait_for, wait_for_picture};
-use crate::hands::{COMMAND, drag, press};
+use crate::hands::{COMMAND, drag, press, redo, undo};
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -31,18 +31,11 @@ fn the_light_is_dragged_taken_back_and_saved() {
     // A drag is one step, and the next drag of the same is another.
     drag(&mut harness, [0.2, 0.1], [-0.2, 0.1]);
     assert_ne!(text(&harness), changed);
-    press(&mut harness, COMMAND, Key::Z);
+    undo(&mut harness);
     assert_eq!(text(&harness), changed);
-    press(&mut harness, COMMAND, Key::Z);
+    undo(&mut harness);
     assert_eq!(text(&harness), LOOK);
-    press(
-        &mut harness,
-        Modifiers {
-            shift: true,
-            ..COMMAND
-        },
-        Key::Z,
-    );
+    redo(&mut harness);
     assert_eq!(text(&harness), changed);
     assert_eq!(
         looks.read("look.ron"),
@@ -74,7 +67,7 @@ fn the_view_is_turned_and_written_into_the_preset() {
     );
     assert!((harness.state().studio.sections.camera.yaw - yaw).abs() < 1e-3);
     // All of the view is one step.
-    press(&mut harness, COMMAND, Key::Z);
+    undo(&mut harness);
     assert_eq!(text(&harness), LOOK);
     press(&mut harness, Modifiers::NONE, Key::Num3);
     assert_eq!(harness.state().studio.camera().yaw, 90.0);

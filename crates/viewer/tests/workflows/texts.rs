@@ -1,12 +1,25 @@
 //! Changes of several texts, and the steps back.
 
 use crate::common::{LOOK, Looks, SCRIPT, viewer, wait_for_picture};
-use crate::hands::{COMMAND, press};
-use eframe::egui::{Key, Modifiers};
+use crate::hands::{COMMAND, press, redo, undo};
+use eframe::egui::Key;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use viewer::app::App;
+use viewer::documents::Which;
 use viewer::panes::Pane;
+
+fn write(harness: &mut Harness<App>, which: Which, text: &str, gesture: Option<u64>) {
+    let studio = &mut harness.state_mut().studio;
+    studio.write(which, text.to_owned(), gesture);
+    harness.step();
+}
+
+/// The preset and its script.
+fn texts(harness: &Harness<App>) -> [String; 2] {
+    let documents = harness.state().studio.documents.as_ref().unwrap();
+    [Which::Preset, Which::Motion].map(|which| documents.get(which).unwrap().text().to_string())
+}
 
 #[test]
 fn changes_of_different_texts_are_taken_back_in_their_order() {
@@ -14,37 +27,19 @@ fn changes_of_different_texts_are_taken_back_in_their_order() {
     let looks = Looks::new();
     let mut harness = viewer(&looks);
     harness.run_steps(3);
-    let write = |harness: &mut Harness<App>, which, text: &str| {
-        harness
-            .state_mut()
-            .studio
-            .write(which, text.to_owned(), None);
-        harness.step();
-    };
     let [first, third] = ["1.6", "1.7"].map(|width| LOOK.replace("1.5", width));
     let second = SCRIPT.replace("40", "50");
-    write(&mut harness, Preset, &first);
-    write(&mut harness, Motion, &second);
-    write(&mut harness, Preset, &third);
-    let texts = |harness: &Harness<App>| {
-        let documents = harness.state().studio.documents.as_ref().unwrap();
-        [Preset, Motion].map(|which| documents.get(which).unwrap().text().to_string())
-    };
-    press(&mut harness, COMMAND, Key::Z);
+    write(&mut harness, Preset, &first, None);
+    write(&mut harness, Motion, &second, None);
+    write(&mut harness, Preset, &third, None);
+    undo(&mut harness);
     assert_eq!(texts(&harness), [first.clone(), second]);
-    press(&mut harness, COMMAND, Key::Z);
+    undo(&mut harness);
     assert_eq!(texts(&harness), [first, SCRIPT.to_owned()]);
-    press(&mut harness, COMMAND, Key::Z);
+    undo(&mut harness);
     assert_eq!(texts(&harness), [LOOK.to_owned(), SCRIPT.to_owned()]);
     for _ in 0..3 {
-        press(
-            &mut harness,
-            Modifiers {
-                shift: true,
-                ..COMMAND
-            },
-            Key::Z,
-        );
+        redo(&mut harness);
     }
     assert_eq!(texts(&harness)[0], third);
 }
@@ -56,35 +51,17 @@ fn a_drag_back_to_its_start_takes_no_step_of_another_text() {
     let looks = Looks::new();
     let mut harness = viewer(&looks);
     harness.run_steps(3);
-    let write = |harness: &mut Harness<App>, which, text: &str, gesture| {
-        harness
-            .state_mut()
-            .studio
-            .write(which, text.to_owned(), gesture);
-        harness.step();
-    };
     let [first, other] = ["1.6", "1.7"].map(|width| LOOK.replace("1.5", width));
     let second = SCRIPT.replace("40", "50");
     write(&mut harness, Preset, &first, None);
     write(&mut harness, Motion, &second, None);
     write(&mut harness, Preset, &other, Some(7));
     write(&mut harness, Preset, &first, Some(7));
-    let texts = |harness: &Harness<App>| {
-        let documents = harness.state().studio.documents.as_ref().unwrap();
-        [Preset, Motion].map(|which| documents.get(which).unwrap().text().to_string())
-    };
-    press(&mut harness, COMMAND, Key::Z);
+    undo(&mut harness);
     assert_eq!(texts(&harness), [first.clone(), SCRIPT.to_owned()]);
     // Nor is what changes nothing, so that what was taken back can be made again.
     write(&mut harness, Preset, &first, None);
-    press(
-        &mut harness,
-        Modifiers {
-            shift: true,
-            ..COMMAND
-        },
-        Key::Z,
-    );
+    redo(&mut harness);
     assert_eq!(texts(&harness), [first, second]);
 }
 
@@ -121,11 +98,6 @@ fn a_style_that_is_named_again_has_its_changes_and_steps() {
     std::fs::write(looks.path("other.style.ron"), &own).unwrap();
     let mut harness = viewer(&looks);
     harness.run_steps(3);
-    let write = |harness: &mut Harness<App>, which, text: &str| {
-        let studio = &mut harness.state_mut().studio;
-        studio.write(which, text.to_owned(), None);
-        harness.step();
-    };
     let style = |harness: &Harness<App>| {
         let documents = harness.state().studio.documents.as_ref().unwrap();
         let style = documents.get(Style).unwrap();
@@ -134,13 +106,13 @@ fn a_style_that_is_named_again_has_its_changes_and_steps() {
     let is = |name: &str, text: &str| (name.to_owned(), text.to_owned());
     let [mine, others] = ["mine", "other's"].map(|name| format!("// {name}\n{own}"));
     let renamed = LOOK.replace("bob.style", "other.style");
-    write(&mut harness, Style, &mine);
-    write(&mut harness, Preset, &renamed);
+    write(&mut harness, Style, &mine, None);
+    write(&mut harness, Preset, &renamed, None);
     assert_eq!(style(&harness), is("other.style.ron", &own));
-    write(&mut harness, Style, &others);
+    write(&mut harness, Style, &others, None);
 
     // Named again it is as it was left.
-    write(&mut harness, Preset, LOOK);
+    write(&mut harness, Preset, LOOK, None);
     assert_eq!(style(&harness), is("bob.style.ron", &mine));
     // Steps back go through all of them in their order, and names are followed.
     for (name, text) in [
@@ -149,19 +121,15 @@ fn a_style_that_is_named_again_has_its_changes_and_steps() {
         ("bob.style.ron", &mine),
         ("bob.style.ron", &own),
     ] {
-        press(&mut harness, COMMAND, Key::Z);
+        undo(&mut harness);
         assert_eq!(style(&harness), is(name, text));
     }
-    let again = Modifiers {
-        shift: true,
-        ..COMMAND
-    };
     for (name, text) in [
         ("bob.style.ron", &mine),
         ("other.style.ron", &own),
         ("other.style.ron", &others),
     ] {
-        press(&mut harness, again, Key::Z);
+        redo(&mut harness);
         assert_eq!(style(&harness), is(name, text));
     }
     // What is not named now is saved, too.
