@@ -1,4 +1,4 @@
-//! A figure, and all that it wears, ends where it is cut off.
+//! Pieces of cloth end where the figure is cut off.
 
 use super::dress::Cloth;
 use super::sewn::Piece;
