@@ -403,4 +403,44 @@ mod tests {
             assert!(count < lines.len(), "{kind}: {count}");
         }
     }
+
+    /// A figure's outlines thin out above where it is cut off; no line is drawn along the cut.
+    #[test]
+    fn lines_end_above_the_crop() {
+        let text = r#"(version: 1, head: (shape: figure, dress: collar, crop: 0.7), hair: (file: "styles/pixie.style.ron"),
+            lines: [(name: "rim", of: "skin, dress", kind: "contour, crease", shortest: 0)],
+            layers: [(effect: "line.ink", on: "rim")])"#;
+        let mut registry = Registry::new();
+        effects_surface::register(&mut registry).unwrap();
+        let preset = Preset::parse("look.ron", text, &registry).unwrap();
+        let files = Files {
+            preset_folder: concat!(env!("CARGO_MANIFEST_DIR"), "/../../presets").into(),
+            ..Files::default()
+        };
+        let scene = Scene::load(&preset, &files).unwrap();
+        let (set, head) = (&scene.look().lines[0], scene.head());
+        let neck = scene.objects()[0].neck().unwrap();
+        let model = neck.rest();
+        let lowest = model
+            .mesh
+            .positions
+            .iter()
+            .map(|p| p.y)
+            .fold(f32::MAX, f32::min);
+        let mesh = LineMesh::new(model, set.crease(), head).unwrap();
+        // From the front and a little from below, where the cut is the body's lower outline.
+        let eye = head.center + head.height_m * Vec3::new(1.0, -0.5, 5.0);
+        let view = View::perspective(eye).unwrap();
+        let seen = mesh.seen(&view, 1e-3, |_| true).unwrap();
+        let lowest_of = |is_meant: &dyn Fn(u32) -> bool| {
+            let strands = seen.strands(set.kinds, is_meant, 0.0, 0.0, None);
+            let points = strands.iter().flat_map(|strand| &strand.points);
+            points.map(|p| p.y).fold(f32::MAX, f32::min) - lowest
+        };
+        let all = lowest_of(&|_| true);
+        let drawn = lowest_of(&|triangle| mesh.is_called(triangle, set.section.meshes()));
+        // Half of the 55 mm in which outlines thin out.
+        assert!(all < 0.005, "{all}");
+        assert!((0.01..0.1).contains(&drawn), "{drawn}");
+    }
 }

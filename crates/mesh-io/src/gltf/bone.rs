@@ -4,7 +4,7 @@
 
 use super::document::{Animation, Document};
 use super::error::GltfError;
-use super::nodes::{bones, read_track, rest_of, target, turn};
+use super::nodes::{bones, last_key, read_track, rest_of, target, turn};
 use super::numbers::Buffers;
 use crate::read::shown;
 use crate::rig::{NodeTracks, Transform};
@@ -73,17 +73,16 @@ impl BoneMotion {
             let Some((node, property, sampler)) = target else {
                 continue;
             };
+            // Also of what moves other bones and shapes, whose faults are theirs: all of an animation starts again at once.
+            let until = last_key(sampler, &mut buffers).ok();
+            let until = until.filter(|until| until.is_finite()).unwrap_or(0.0);
+            motion.length = motion.length.max(until);
             let Some(&joint) = joints.get(&node) else {
-                // Of what moves other bones it matters how long it is: all of an animation starts again at once.
-                let mut others = NodeTracks::default();
-                let until = read_track(&mut others, property, sampler, None, &mut buffers);
-                motion.length = motion.length.max(until.unwrap_or(0.0));
                 continue;
             };
             // Shapes of a face don't move its bones.
             let tracks = &mut motion.chain[joint].tracks;
-            let until = read_track(tracks, property, sampler, None, &mut buffers).map_err(wrong)?;
-            motion.length = motion.length.max(until);
+            read_track(tracks, property, sampler, None, &mut buffers).map_err(wrong)?;
         }
         let (rotation, place) = motion.pose(|joint| joint.rest);
         if !(rotation.is_finite() && place.is_finite()) {
@@ -103,7 +102,7 @@ impl BoneMotion {
         Ok(Buffers::files(&document, folder))
     }
 
-    /// When the last key of the animation is, but for those of shapes, in s.
+    /// When the last key of the animation is, in s.
     #[must_use]
     pub fn length(&self) -> f64 {
         self.length

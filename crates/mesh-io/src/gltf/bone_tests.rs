@@ -77,6 +77,18 @@ fn an_animation_is_as_long_as_all_that_moves_in_it() {
     ]);
     // The head's keys are no part of what moves the neck.
     assert_eq!(read(&file, "neck", None).unwrap().length(), 6.0);
+    // Shapes count; keys that cannot be read are the fault of who needs them.
+    let mut shapes = file.clone();
+    for animation in 0..2 {
+        shapes["animations"][animation]["channels"][0]["target"]["path"] = json!("weights");
+    }
+    assert_eq!(read(&shapes, "neck", None).unwrap().length(), 6.0);
+    let mut broken = file.clone();
+    for animation in 0..2 {
+        broken["animations"][animation]["samplers"][0]["input"] = json!(99);
+    }
+    assert_eq!(read(&broken, "neck", None).unwrap().length(), 4.0);
+    assert!(read(&broken, "head", None).is_err());
 }
 
 #[test]

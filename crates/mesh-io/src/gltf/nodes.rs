@@ -306,6 +306,11 @@ fn put<T: Value>(
     Ok(place.insert(read()?).length())
 }
 
+/// When the last key of a sampler is, in s.
+pub(super) fn last_key(sampler: &Sampler, buffers: &mut Buffers) -> Result<f64, PartError> {
+    Ok(times(sampler, buffers)?.into_iter().fold(0.0, f64::max))
+}
+
 fn times(sampler: &Sampler, buffers: &mut Buffers) -> Result<Vec<f64>, PartError> {
     let times = buffers.shares::<1>(sampler.input)?;
     Ok(times.into_iter().map(|[time]| time).collect())

@@ -211,12 +211,7 @@ pub(crate) fn between(count: usize, rate: f64, end: End, time: f64) -> (usize, u
     let place = time * rate;
     // A time in single precision that is a form's may be a little before it, and would show the one before.
     let slack = place.abs() * f64::from(f32::EPSILON) + 1e-6;
-    let whole = place.round();
-    let place = if whole - place <= slack {
-        place.max(whole)
-    } else {
-        place
-    };
+    let place = place.max((place + slack).floor());
     let place = match end {
         End::First => place.rem_euclid(count as f64),
         End::Round if last > 0 => place.rem_euclid(last as f64),

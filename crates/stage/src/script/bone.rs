@@ -7,7 +7,7 @@ use hair_io::BoneMotion;
 use render::Head;
 use std::sync::Arc;
 
-/// From this way on, in head heights, or this turn a head jumps: no frame of a motion is so far from the next.
+/// From this way on, in head heights, or this turn, a head that is elsewhere at once is told of.
 const JUMP_HEADS: f64 = 0.25;
 const JUMP_DEGREES: f64 = 15.0;
 /// The end of an animation that repeats is so much before its start comes again, as a share of its length.
@@ -69,7 +69,7 @@ impl Below {
         );
         (degrees > JUMP_DEGREES || way > JUMP_HEADS).then(|| {
             format!(
-                "motion: where the animation starts again (`repeat`) the head jumps by {way:.2} head heights and {degrees:.0} degrees, which throws hair about; one that is to repeat comes back to its start"
+                "motion: where the animation starts again (`repeat`) the head jumps by {way:.2} head heights and {degrees:.0} degrees, which throws hair that is simulated; one that is to repeat comes back to its start"
             )
         })
     }

@@ -226,3 +226,26 @@ fn files_that_the_preset_names_are_watched() {
         app.studio.is_sharp && app.studio.pixels(0).is_some_and(|pixels| pixels != before)
     });
 }
+
+#[test]
+fn what_the_preset_builds_on_is_read_anew() {
+    let looks = Looks::new();
+    std::fs::write(looks.path("under.ron"), LOOK).unwrap();
+    std::fs::write(
+        looks.path("look.ron"),
+        "(version: 1, base: \"under.ron\", light: (yaw: 50))",
+    )
+    .unwrap();
+    let mut harness = viewer(&looks);
+    wait_for_picture(&mut harness);
+    assert_eq!(harness.state().studio.sections.camera.yaw, 20.0);
+    std::fs::write(
+        looks.path("under.ron"),
+        LOOK.replace("(yaw: 20)", "(yaw: 35)"),
+    )
+    .unwrap();
+    wait_for(&mut harness, "the camera of the file below", |app| {
+        app.studio.sections.camera.yaw == 35.0
+    });
+    assert_eq!(harness.state().studio.sections.light.yaw, 50.0);
+}
