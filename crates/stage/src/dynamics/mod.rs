@@ -12,6 +12,7 @@ mod kept_out;
 #[cfg(test)]
 mod ponytail;
 mod running;
+mod seam;
 mod section;
 mod ties;
 #[cfg(test)]
@@ -27,6 +28,7 @@ use crate::neck::{pivot, rigid};
 use crate::placement::Placement;
 use crate::posture::Posture;
 use crate::script::HeadPose;
+use crate::skeleton::after;
 use bodies::GAP_M;
 pub(crate) use bodies::{Bodies, BodyMesh};
 use carried::Carried;
@@ -42,6 +44,7 @@ use hair_sim::{
 use rayon::prelude::*;
 use render::Head;
 use running::{Run, Running};
+use seam::{Seams, way};
 use std::ops::Range;
 use std::sync::Arc;
 use ties::Ties;
@@ -105,6 +108,8 @@ pub(crate) struct Dynamics {
     ties: Ties,
     /// Whether all strands slept in the last step. What is looked at between two steps doesn't count.
     is_asleep: bool,
+    /// Where the head jumps.
+    seams: Seams,
     bodies: Arc<Bodies>,
     head: Head,
     placement: Placement,
@@ -246,6 +251,7 @@ impl Dynamics {
             bodies,
             ties,
             is_asleep: false,
+            seams: Seams::default(),
             shapes: hair.shapes.clone(),
             shape: all.points().to_vec(),
             goal: Vec::new(),
@@ -309,6 +315,7 @@ impl Dynamics {
         if wanted < self.done || self.done == 0 {
             self.done = 0;
             self.owed = 0;
+            self.seams = Seams::of(driver.script);
             let start = self.time_of(0);
             let first = self.pose_at(start, driver);
             let styled = self.styled(driver);
@@ -422,13 +429,12 @@ impl Dynamics {
     /// How near to bodies hair is at the start, but on a head as it is styled there.
     fn gaps_at_start(&self, (styled, first): (Pose, Pose), colliders: &[Collider]) -> Vec<Gap> {
         let bodies: Vec<Placed> = colliders.iter().map(Placed::new).collect();
-        let turn = styled.rotation * first.rotation.inverse();
-        let shift = styled.translation - turn * first.translation;
+        let back = way([first, styled]);
         let mut points = vec![Vec3::ZERO; self.shape.len()];
         for part in &self.guides {
             let own = &mut points[part.points.clone()];
             for (point, at) in own.iter_mut().zip(self.strands.points(part.strand)) {
-                *point = (turn * at + shift).as_vec3();
+                *point = (back.rotation * at + back.translation).as_vec3();
             }
         }
         self.carried.at_rest(styled, &mut points);
@@ -458,13 +464,11 @@ impl Dynamics {
 
     /// Moves what is shown on with the head, to `time` (seconds).
     fn carry_on(&self, driver: Driver, time: f64, points: &mut [Vec3]) {
-        let [then, now] = [self.shown, time].map(|time| self.pose_at(time, driver));
-        let turn = now.rotation * then.rotation.inverse();
-        let shift = now.translation - turn * then.translation;
+        let on = way([self.shown, time].map(|time| self.pose_at(time, driver)));
         let parts = self.guides.iter().map(|part| &part.points);
         for range in parts.chain(self.carried.ranges()) {
             for point in &mut points[range.clone()] {
-                *point = (turn * point.as_dvec3() + shift).as_vec3();
+                *point = (on.rotation * point.as_dvec3() + on.translation).as_vec3();
             }
         }
     }
@@ -532,7 +536,10 @@ impl Dynamics {
     ) -> Result<Stats, StageError> {
         let begin = self.time_of(self.done);
         let postures = [begin, end].map(|time| self.posture_at(time, driver));
-        let [before, now] = [0, 1].map(|i| postures[i].head);
+        let now = postures[1].head;
+        let seam = self.seam([begin, end], driver);
+        let from = (seam.as_ref()).map(|seam| after(postures[0].head, seam.way()));
+        let before = from.unwrap_or(postures[0].head);
         let [wind_before, wind] = [begin, end].map(|time| {
             let (steady, gust) = driver.wind_at(time);
             Wind {
@@ -543,17 +550,21 @@ impl Dynamics {
                 period: air::period(driver.script),
             }
         });
-        let streams = air::streams(driver, &self.placement, self.head, [begin, end]);
+        let mut streams = air::streams(driver, &self.placement, self.head, [begin, end]);
         self.aim(driver.script.within(end));
         // Over whole steps, so that what jumps in a script is felt whole, however it lies between the steps.
         let accelerations = [(begin, before), (end, now)].map(|(time, pose)| {
             let [earlier, later] =
-                [-self.step, self.step].map(|by| self.pose_at(time + by, driver));
+                [-self.step, self.step].map(|by| self.pose_beside(time + by, end, driver));
             Acceleration::between([earlier, pose, later], self.step)
         });
-        let colliders =
+        let mut colliders =
             self.bodies
                 .colliders(driver.script, [begin, end], [0, 1].map(|i| &postures[i]));
+        if let Some(seam) = &seam {
+            self.carry_over(seam, driver, (&mut colliders, &mut streams));
+            self.ties.carry(seam.way());
+        }
         let scene = Surroundings {
             roots: Roots::Head(now),
             acceleration: Some(accelerations),
@@ -570,7 +581,7 @@ impl Dynamics {
             if self.is_asleep && before == now {
                 self.ties.stay();
             } else {
-                self.strands.look_ahead(&scene, dt)?;
+                self.strands.look_ahead(from, &scene, dt)?;
                 let calm = before == now && scene.is_calm() && scene.goal.is_none();
                 let calm = calm.then_some(dt);
                 self.ties.aim(&*self.strands, (now, &colliders), calm);
@@ -582,11 +593,11 @@ impl Dynamics {
         };
         Ok(match drives {
             Drives::Step => {
-                let stats = self.strands.step(&scene, dt)?;
+                let stats = self.strands.step(from, &scene, dt)?;
                 self.is_asleep = stats.strands == 0 && stats.asleep > 0;
                 stats
             }
-            Drives::Look => self.strands.look_ahead(&scene, dt)?,
+            Drives::Look => self.strands.look_ahead(from, &scene, dt)?,
         })
     }
 

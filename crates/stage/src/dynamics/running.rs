@@ -8,10 +8,20 @@ use std::sync::OnceLock;
 pub(super) trait Running: Send + Sync {
     /// Puts all back to the start, on a head in the pose `first`. As deep as hair is in bodies where the head and these are as it is `styled`, it may stay.
     fn restart(&mut self, styled: (Pose, &[Collider]), first: Pose) -> Result<(), DynamicsError>;
-    /// Advances by `dt` seconds.
-    fn step(&mut self, scene: &Surroundings, dt: f64) -> Result<Stats, DynamicsError>;
-    /// Shows where a step of `dt` seconds would bring the strands, until the next step goes on from where they are.
-    fn look_ahead(&mut self, scene: &Surroundings, dt: f64) -> Result<Stats, DynamicsError>;
+    /// Advances by `dt` seconds, on a head that is first put into the pose `from` at once, where there is one: strands are carried along.
+    fn step(
+        &mut self,
+        from: Option<Pose>,
+        scene: &Surroundings,
+        dt: f64,
+    ) -> Result<Stats, DynamicsError>;
+    /// Shows where such a step would bring the strands, until the next step goes on from where they are.
+    fn look_ahead(
+        &mut self,
+        from: Option<Pose>,
+        scene: &Surroundings,
+        dt: f64,
+    ) -> Result<Stats, DynamicsError>;
     /// Shows the strands where they are.
     fn look_back(&mut self);
     /// The points of a strand, m.
@@ -73,14 +83,30 @@ where
         self.solver.teleport(&mut self.state, Roots::Head(first))
     }
 
-    fn step(&mut self, scene: &Surroundings, dt: f64) -> Result<Stats, DynamicsError> {
+    fn step(
+        &mut self,
+        from: Option<Pose>,
+        scene: &Surroundings,
+        dt: f64,
+    ) -> Result<Stats, DynamicsError> {
         self.is_ahead = false;
+        if let Some(from) = from {
+            (self.solver).teleport(&mut self.state, Roots::Head(from))?;
+        }
         self.solver.step(&mut self.state, scene, dt)
     }
 
-    fn look_ahead(&mut self, scene: &Surroundings, dt: f64) -> Result<Stats, DynamicsError> {
+    fn look_ahead(
+        &mut self,
+        from: Option<Pose>,
+        scene: &Surroundings,
+        dt: f64,
+    ) -> Result<Stats, DynamicsError> {
         self.is_ahead = true;
         self.ahead.clone_from(&self.state);
+        if let Some(from) = from {
+            (self.solver).teleport(&mut self.ahead, Roots::Head(from))?;
+        }
         self.solver.step(&mut self.ahead, scene, dt)
     }
 

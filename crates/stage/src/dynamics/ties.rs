@@ -99,6 +99,13 @@ impl Ties {
         self.held = held;
     }
 
+    /// Carries them along by this motion.
+    pub fn carry(&mut self, way: Pose) {
+        for place in self.held.anchors.iter_mut().flat_map(|own| &mut own.places) {
+            *place = way.rotation * *place + way.translation;
+        }
+    }
+
     /// Ties stay where they are in the next step.
     pub fn stay(&mut self) {
         for anchor in &mut self.held.anchors {

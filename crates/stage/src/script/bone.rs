@@ -27,6 +27,15 @@ pub(crate) enum Below {
     },
 }
 
+/// How the head jumps where an animation starts again.
+pub(crate) struct Jump {
+    /// The length of the animation, seconds.
+    pub length_s: f64,
+    /// How far, in head heights.
+    way_heads: f64,
+    turn_degrees: f64,
+}
+
 impl Below {
     /// A character's skeleton under its hair: which of its bodies count hangs on where that is.
     pub fn skeleton(skeleton: &Skeleton, hair: &HairModel) -> Self {
@@ -52,9 +61,9 @@ impl Below {
         }
     }
 
-    /// What is to be told of what starts again, where the head isn't where it was at the start by then.
-    pub fn jump_note(&self) -> Option<String> {
-        let (length, repeats) = match self {
+    /// How the head jumps where it starts again; None where it doesn't repeat, or comes back to its start.
+    pub fn jump(&self) -> Option<Jump> {
+        let (length_s, repeats) = match self {
             Self::Bone(bone) => (bone.motion.length(), bone.repeats),
             Self::Skeleton { skeleton, .. } => (skeleton.length(), skeleton.repeats()),
         };
@@ -62,16 +71,25 @@ impl Below {
             return None;
         }
         let [(turn, moved, _), (last_turn, last_moved, _)] =
-            [0.0, length * (1.0 - BEFORE_END)].map(|time| self.at(time));
-        let (degrees, way) = (
-            turn.angle_between(last_turn).to_degrees(),
-            moved.distance(last_moved),
-        );
-        (degrees > JUMP_DEGREES || way > JUMP_HEADS).then(|| {
-            format!(
-                "motion: where the animation starts again (`repeat`) the head jumps by {way:.2} head heights and {degrees:.0} degrees, which throws hair that is simulated; one that is to repeat comes back to its start"
-            )
-        })
+            [0.0, length_s * (1.0 - BEFORE_END)].map(|time| self.at(time));
+        let jump = Jump {
+            length_s,
+            way_heads: moved.distance(last_moved),
+            turn_degrees: turn.angle_between(last_turn).to_degrees(),
+        };
+        (jump.turn_degrees > JUMP_DEGREES || jump.way_heads > JUMP_HEADS).then_some(jump)
+    }
+
+    /// What is to be told of that jump.
+    pub fn jump_note(&self) -> Option<String> {
+        let Jump {
+            way_heads,
+            turn_degrees,
+            ..
+        } = self.jump()?;
+        Some(format!(
+            "motion: where the animation starts again (`repeat`) the head jumps by {way_heads:.2} head heights and {turn_degrees:.0} degrees; hair goes along as if the head went on. One that is to repeat without a jump comes back to its start"
+        ))
     }
 
     /// Whether all that it moves is, at one time (seconds), where it is at another.

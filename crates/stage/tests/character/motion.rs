@@ -246,6 +246,51 @@ fn bodies_follow_the_skeleton() {
     assert!(free < 0.04 && pushed > 0.047, "{free} {pushed}");
 }
 
+/// She walks on for three seconds, with a ball on an arm that hair is blown against; or for one that repeats, as if it went on.
+#[test]
+fn hair_and_limbs_go_over_the_start_of_a_round() {
+    let moved = |rounds: f32| {
+        let node = |node: usize, at: Vec3| Track {
+            node,
+            path: "translation",
+            values: [at, at + Vec3::Z * rounds].map(|at| at.to_array()).concat(),
+        };
+        let arm = Vec3::new(0.03, 1.56, 0.19);
+        let folder = animated(&[node(0, Vec3::ZERO), node(7, arm)], |file| {
+            let nodes = file["nodes"].as_array_mut().unwrap();
+            nodes.push(json!({"name": "arm", "translation": arm.to_array()}));
+            file["extensions"]["VRMC_springBone"]["colliders"] =
+                json!([{"node": 7, "shape": {"sphere": {"radius": 0.05}}}]);
+        });
+        // From time 0 on to another.
+        let numbers = folder.path().join("move.bin");
+        let mut bytes = fs::read(&numbers).unwrap();
+        bytes[4..8].copy_from_slice(&rounds.to_le_bytes());
+        fs::write(&numbers, bytes).unwrap();
+        let script = "(version: 1, winds: [(speed: 12, gusts: 0, yaw: 180)])";
+        fs::write(folder.path().join("wind.motion.ron"), script).unwrap();
+        let motion = "character: true, repeat: true, file: \"wind.motion.ron\"";
+        scene(folder.path(), motion, "dynamics: (feel: soft),").unwrap()
+    };
+    let (round, on) = (moved(1.0), moved(3.0));
+    let mut motions = [Motion::new(), Motion::new()];
+    let (mut apart, mut nearest) = (0.0_f32, f32::INFINITY);
+    for frame in 0..70 {
+        let time = frame as f32 / 24.0;
+        motions[0].advance_to(&round, time).unwrap();
+        motions[1].advance_to(&on, time).unwrap();
+        let gone = Vec3::Z * time.floor();
+        let ball = Vec3::new(0.03, 1.56, 0.19 + time.fract());
+        let points = motions[0].points(&round, 0);
+        for (found, expected) in points.iter().zip(motions[1].points(&on, 0)) {
+            apart = apart.max(found.distance(*expected - gone));
+            nearest = nearest.min(found.distance(ball));
+        }
+    }
+    assert!(nearest < 0.055, "hair lies on the ball: {nearest}");
+    assert!(apart < 1e-5, "{apart}");
+}
+
 /// An arm without a collider of the file's is as thick as its skin, where its bones are a humanoid's.
 #[test]
 fn limbs_push_hair_where_their_bones_take_them() {

@@ -8,6 +8,7 @@
 mod locks;
 mod on_bodies;
 mod rates;
+mod seam;
 
 use effects::Registry;
 use glam::Vec3;
