@@ -483,7 +483,8 @@ impl Dynamics {
         let height_m = f64::from(self.head.height_m);
         let places = |by: i64| {
             let steps = self.done + by;
-            let pose = self.pose_at(self.time_of(steps), driver);
+            let [time, here] = [steps, self.done].map(|steps| self.time_of(steps));
+            let pose = self.pose_beside(time, here, driver);
             let center = self.head.center.as_dvec3();
             [DVec3::X, DVec3::Z]
                 .map(|side| pose.rotation * (center + side * height_m) + pose.translation)

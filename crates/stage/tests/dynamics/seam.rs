@@ -6,6 +6,7 @@ use glam::{Quat, Vec3};
 use stage::{Files, Motion, Preset, Scene};
 use std::fs;
 use std::path::Path;
+use stroke_path::{Camera, OrbitView};
 
 /// How far hair may be from where a motion that goes on has it, m: a hair's thickness.
 const ALIKE_M: f32 = 1e-4;
@@ -21,6 +22,14 @@ struct Walk {
 }
 
 impl Walk {
+    fn ahead(round_s: f32) -> Self {
+        Self {
+            round_s,
+            speed: Vec3::new(0.3, 0.0, 1.0),
+            turn: 0.0,
+        }
+    }
+
     /// Writes the character in an animation of so many rounds.
     fn write(&self, path: &Path, rounds: u16) {
         let keys = 4 * rounds;
@@ -93,8 +102,8 @@ impl Walk {
     }
 
     /// How far hair of the first scene is at most from where that of the second is beside its head, in m, in two rounds and a half. It is looked at in each
-    /// frame and between frames, which changes nothing.
-    fn apart(&self, fps: u32, [round, on]: &[Scene; 2]) -> f32 {
+    /// frame and between frames, which changes nothing; a live program may look by a camera.
+    fn apart(&self, fps: u32, [round, on]: &[Scene; 2], seen_by: Option<&Camera>) -> f32 {
         let mut motions = [Motion::new(), Motion::new()];
         let height_m = round.head().height_m;
         let pivot = round.head().center - Vec3::new(0.0, 0.0, 0.12 * height_m);
@@ -104,7 +113,10 @@ impl Walk {
         for half_frame in 0..half_frames {
             time = half_frame as f32 / (2 * fps) as f32;
             for (motion, scene) in motions.iter_mut().zip([round, on]) {
-                motion.advance_to(scene, time).unwrap();
+                match seen_by {
+                    None => motion.advance_to(scene, time).unwrap(),
+                    Some(camera) => motion.advance_to_seen_by(scene, time, camera).unwrap(),
+                }
             }
             // In which round it is, in single precision.
             let gone_s = (time / self.round_s + 1e-5).floor() * self.round_s;
@@ -113,11 +125,30 @@ impl Walk {
             let expected: Vec<Vec3> = motions[1].points(on, 0).iter().map(beside).collect();
             most = most.max(farthest(motions[0].points(round, 0), &expected));
         }
-        let mut at_once = Motion::new();
-        at_once.advance_to(round, time).unwrap();
-        assert!(at_once.points(round, 0) == motions[0].points(round, 0));
+        if seen_by.is_none() {
+            let mut at_once = Motion::new();
+            at_once.advance_to(round, time).unwrap();
+            assert!(at_once.points(round, 0) == motions[0].points(round, 0));
+        }
+        assert_eq!(motions[0].steps_taken(), motions[1].steps_taken());
         most
     }
+}
+
+/// Strands around a head.
+fn strands() -> String {
+    let strands = (0..12).map(|strand| {
+        let away = Quat::from_rotation_y(strand as f32 * std::f32::consts::TAU / 12.0) * Vec3::Z;
+        let points = (0..10).map(|point| {
+            let at = Vec3::Y * (1.6 - 0.03 * point as f32) + away * 0.1;
+            format!("({}, {}, {})", at.x, at.y, at.z)
+        });
+        format!("(points: [{}])", points.collect::<Vec<_>>().join(", "))
+    });
+    format!(
+        "(version: 1, strands: [{}])",
+        strands.collect::<Vec<_>>().join(",\n")
+    )
 }
 
 fn style_name(style: &str) -> &'static str {
@@ -127,52 +158,55 @@ fn style_name(style: &str) -> &'static str {
     }
 }
 
-/// A tail that is tied twice and lies on her back, in the lee of her head.
+/// A tail that is tied twice and lies on a bag that she carries on her back, in the lee of her head.
+const TIED: &str = r#"(version: 1, zones: [
+    (name: "cap", roots: whorl, tips: hairline(-180, 180), count: 12, hang: 0.3, lift: 0.03),
+    (name: "tail", form: tail, roots: [(150, 35)], hang: 1.4, count: 5, tie: 0.07, low_tie: 0.5, low_tie_size: 0.07, feel: limp),
+])"#;
+const LEE: &str = r#"(version: 1, wake: true, winds: [(speed: 5, gusts: 0, yaw: 30)],
+    bodies: [(name: "bag", on: shoulders, at: (0, -1.2, -0.5), radius: 0.3)])"#;
+
 #[test]
 fn hair_walks_on_over_seams() {
-    let walk = |round_s: f32| Walk {
-        round_s,
-        speed: Vec3::new(0.3, 0.0, 1.0),
-        turn: 0.0,
-    };
-    let style = r#"(version: 1, zones: [
-        (name: "cap", roots: whorl, tips: hairline(-180, 180), count: 12, hang: 0.3, lift: 0.03),
-        (name: "tail", form: tail, roots: [(150, 35)], hang: 1.4, count: 5, tie: 0.07, low_tie: 0.5, low_tie_size: 0.07, feel: limp),
-    ])"#;
-    let script = r#"(version: 1, wake: true, winds: [(speed: 5, gusts: 0, yaw: 30)],
-        bodies: [(name: "bag", on: shoulders, at: (0, -1.2, -0.5), radius: 0.3)])"#;
     for (fps, round_s) in [(24, 1.0), (30, 1.0), (60, 1.0), (24, 0.77)] {
-        let walk = walk(round_s);
-        let apart = walk.apart(fps, &walk.scenes(fps, "(shape: bust)", style, script));
+        let walk = Walk::ahead(round_s);
+        let apart = walk.apart(fps, &walk.scenes(fps, "(shape: bust)", TIED, LEE), None);
         println!("{fps} frames a second, rounds of {round_s} s: {apart:.1e} m");
         assert!(apart < ALIKE_M, "{fps} {round_s}: {apart}");
     }
 }
 
-/// Strands around a head that turns on, some of which lie on a ball that goes with it.
+/// In long steps, too: those of hair that is not seen.
+#[test]
+fn hair_off_screen_walks_on_over_seams() {
+    let walk = Walk::ahead(0.77);
+    let scenes = walk.scenes(24, "(shape: none)", &strands(), LEE);
+    let view = OrbitView {
+        target: Vec3::X * 500.0,
+        yaw_degrees: 0.0,
+        pitch_degrees: 0.0,
+        distance_m: 2.0,
+        vertical_fov_degrees: 40.0,
+    };
+    let camera = Camera::orbit(view, [640, 640], 0.1).unwrap();
+    let apart = walk.apart(24, &scenes, Some(&camera));
+    println!("off screen: {apart:.1e} m");
+    assert!(apart < ALIKE_M, "{apart}");
+}
+
+/// Around a head that turns on, and with it a ball that hair lies on.
 #[test]
 fn hair_turns_on_over_seams() {
-    let strands = (0..12).map(|strand| {
-        let away = Quat::from_rotation_y(strand as f32 * std::f32::consts::TAU / 12.0) * Vec3::Z;
-        let points = (0..10).map(|point| {
-            let at = Vec3::Y * (1.6 - 0.03 * point as f32) + away * 0.1;
-            format!("({}, {}, {})", at.x, at.y, at.z)
-        });
-        format!("(points: [{}])", points.collect::<Vec<_>>().join(", "))
-    });
-    let hair = format!(
-        "(version: 1, strands: [{}])",
-        strands.collect::<Vec<_>>().join(",\n")
-    );
     let script =
         r#"(version: 1, bodies: [(name: "ball", on: head, at: (0, -0.8, 0), radius: 0.6)])"#;
+    let hair = strands();
     for (fps, round_s) in [(24, 1.0), (30, 1.0), (60, 1.0), (24, 0.77)] {
         let walk = Walk {
             round_s,
             speed: Vec3::ZERO,
             turn: 200.0,
         };
-        let apart = walk.apart(fps, &walk.scenes(fps, "(shape: none)", &hair, script));
+        let apart = walk.apart(fps, &walk.scenes(fps, "(shape: none)", &hair, script), None);
         println!("{fps} frames a second, rounds of {round_s} s: {apart:.1e} m");
         assert!(apart < ALIKE_M, "{fps} {round_s}: {apart}");
     }
