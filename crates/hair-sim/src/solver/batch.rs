@@ -200,6 +200,8 @@ pub(crate) struct BatchState {
     pub recalled: Vec<Lane>,
     /// For how long strands have moved by themselves while others pressed on them, or a body on those that are tied, in s: see [`super::unrest`].
     pub restless: Lane,
+    /// Strands that anchors held in the last step.
+    pub tied: [bool; LANES],
     /// For how long they have rocked on a body, in s.
     pub rocking: Lane,
     /// Where the tips were a step before, and their way in the step before that.
@@ -251,6 +253,7 @@ impl BatchState {
             recalled: Vec::new(),
             calm: Lane::ZERO,
             restless: Lane::ZERO,
+            tied: [false; LANES],
             rocking: Lane::ZERO,
             tip_before: Vec3::ZERO,
             tip_way: Vec3::ZERO,

@@ -6,7 +6,7 @@
 //! their own motion takes them keeps both on their sides ([`Contact`]), as a body's surface would: both know it beforehand, so strands stay
 //! independent within a step. Pieces that are nearer than that at rest are left alone: a style's locks lie in each other, and
 //! [`Mutual`](crate::Mutual) holds them. Those that are a little farther apart keep a share of that distance. What is recalled passes through others, which would
-//! hold it on a shoulder.
+//! hold it on a shoulder, and so do neighbours that a violent motion has brought onto each other's wrong side, which would jam there.
 //!
 //! No strand's answer hangs on the order in which others are found: of all planes the deepest holds.
 //!
@@ -20,6 +20,8 @@ mod pairs;
 mod single;
 mod ways;
 
+use std::array;
+
 use crate::{
     lanes::{LANES, Lane, Mask, Number, Vec3},
     surroundings::Surroundings,
@@ -32,6 +34,7 @@ use super::{
     stage::GAMMA,
 };
 use boxes::FOUR;
+use glam::{DQuat, DVec3};
 use keeps::Keeps;
 use meeting::{Links, Meeting, closest};
 use pairs::{Pairs, ones};
@@ -54,6 +57,10 @@ const END: f64 = 0.75;
 /// Locks part by less once one of both has been restless for the first of these times, in s, and no more after the second: see [`super::unrest`].
 pub(super) const PATIENCE: [f64; 2] = [2.0, 4.0];
 
+/// Neighbours at rest are on each other's wrong side where what keeps them apart points against the way that was between them then by more than this, as
+/// a cosine. The more is allowed, the more locks stay in tangles.
+const WRONG_SIDE: f64 = 0.1;
+
 /// What is recalled by more than this share of what it could be passes through other locks, which would hold it where it lies.
 const RECALLED: f64 = 0.1;
 
@@ -75,6 +82,13 @@ struct Piece {
     radius: f64,
     /// The strand's own number, which hangs on nothing else.
     id: u32,
+}
+
+/// A link at rest, in the style's space.
+#[derive(Clone, Copy, Debug)]
+struct AtRest {
+    middle: DVec3,
+    direction: DVec3,
 }
 
 /// Pairs of links that may meet, lane by lane.
@@ -147,6 +161,10 @@ pub(super) struct Locks {
     /// The first piece of every four of a strand.
     fours: Vec<usize>,
     keeps: Keeps,
+    /// The links of each piece.
+    at_rest: Vec<[AtRest; PIECE]>,
+    /// How each piece's root has turned since, at the end of the step at hand; None of strands that are tied, which cross in their ties.
+    turns: Vec<Option<DQuat>>,
     /// How much of the way each piece parts by in the step at hand that it would if it weren't restless, 0 to 1.
     parts: Vec<f64>,
     /// Whether each piece passes through others in the step at hand, as it is recalled.
@@ -209,6 +227,8 @@ impl Locks {
         }
         let mut locks = Self {
             keeps: Keeps::new(&[]),
+            at_rest: Vec::new(),
+            turns: vec![None; pieces.len()],
             parts: vec![1.0; pieces.len()],
             passes: vec![false; pieces.len()],
             dt: 0.0,
@@ -231,6 +251,16 @@ impl Locks {
         let more = (1.0 / OF_REST - 1.0, NEAR);
         self.ways
             .follow::<Lane>(batches, states, (&still, 0.0), more);
+        let at_rest = |piece| {
+            array::from_fn(|i| {
+                let [[start, _], [end, _]] = self.ways.link(piece, i.min(piece.links - 1));
+                AtRest {
+                    middle: 0.5 * (start + end),
+                    direction: (end - start).normalize_or_zero(),
+                }
+            })
+        };
+        self.at_rest = self.pieces.iter().map(at_rest).collect();
         self.pairs.find(&self.ways.bounds);
         let mut near = Vec::new();
         for &pair in self.pairs.all() {
@@ -287,6 +317,7 @@ impl Locks {
             let restless = states[piece.batch].restless[piece.lane];
             *parts = ((until - restless) / (until - from)).clamp(0.0, 1.0);
         }
+        self.follow_roots(batches, states, surroundings);
         self.passes.fill(false);
         if states.iter().any(|state| !state.recalled.is_empty()) {
             for (passes, piece) in self.passes.iter_mut().zip(&self.pieces) {
@@ -332,6 +363,24 @@ impl Locks {
             }
         }
         self.found = found;
+    }
+
+    /// Finds how roots have turned since rest.
+    fn follow_roots(
+        &mut self,
+        batches: &[Batch],
+        states: &[BatchState],
+        surroundings: &Surroundings,
+    ) {
+        let mut tied: Vec<usize> = surroundings.anchors.iter().map(|own| own.strand).collect();
+        tied.sort_unstable();
+        for (turn, piece) in self.turns.iter_mut().zip(&self.pieces) {
+            // A step that is tried without ties, to find where they go, moves as those before it.
+            let was_tied = states[piece.batch].tied[piece.lane];
+            let strand = batches[piece.batch].strands[piece.lane];
+            let free = strand.filter(|strand| !was_tied && tied.binary_search(strand).is_err());
+            *turn = free.map(|strand| surroundings.roots.of(strand).rotation);
+        }
     }
 
     /// The link that a plane keeps a particle from: its strand's id and its number.
@@ -475,6 +524,10 @@ impl Locks {
             return;
         };
         for lane in (0..count).filter(|&lane| meeting.meets[lane] > 0.0) {
+            let normal = meeting.normal.get(lane);
+            if self.is_on_wrong_side(near.sides[lane], normal) {
+                continue;
+            }
             for side in [0, 1] {
                 let Link { piece, number } = near.sides[lane][side];
                 let piece = &self.pieces[piece];
@@ -505,6 +558,23 @@ impl Locks {
             meeting,
             sides: near.sides,
         });
+    }
+
+    /// Whether two links that a plane would keep apart are neighbours at rest, as seen along the first, which lies on the other side of the second then.
+    fn is_on_wrong_side(&self, [own, its]: [Link; 2], normal: DVec3) -> bool {
+        let (Some(turn), Some(_)) = (self.turns[own.piece], self.turns[its.piece]) else {
+            return false;
+        };
+        // What goes on all the same is to come to rest as it lies.
+        if self.parts[own.piece].min(self.parts[its.piece]) < 1.0 {
+            return false;
+        }
+        let radii = self.pieces[own.piece].radius + self.pieces[its.piece].radius;
+        let [link, other] = [own, its].map(|link| &self.at_rest[link.piece][link.number]);
+        let way = link.middle - other.middle;
+        let beside = way - link.direction * way.dot(link.direction);
+        let apart = beside.length();
+        apart * OF_REST < radii && normal.dot(turn * beside) < -WRONG_SIDE * apart
     }
 
     /// Adds the planes before the strands of a batch that are `active` to the loads' contacts, where the roots end at `root`. Returns the number of

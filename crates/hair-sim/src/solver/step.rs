@@ -54,6 +54,10 @@ pub(crate) fn advance<T: Number>(
             let awake = asleep.not();
             let active = prepare::<T>(rods, batch, state, scratch, drives, awake, &mut stats);
             stats.strands = active.count();
+            state.tied = [false; LANES];
+            for own in drive.anchors {
+                state.tied[own.lane] = true;
+            }
             let has_bodies = !drive.surroundings.colliders.is_empty();
             if drive.locks.is_some() || has_bodies || !drive.anchors.is_empty() {
                 calm_down(batch, state, &mut scratch.work.loads, drives, active);

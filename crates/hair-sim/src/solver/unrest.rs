@@ -4,7 +4,7 @@
 //! plane that is most urgent, the next by another, and what is shoved to and fro would tremble for ever. So would strands that a tie gathers over a
 //! body. A strand that others press on, or a body where anchors hold it, and that has gone to and fro by itself for some seconds gives in: its locks part no more
 //! ([`super::locks::PATIENCE`]), and it sticks where it is on the head, the faster the longer it goes on, as hair does that has felted. What swings
-//! gets on, and doesn't count. So does a strand stick that rocks on a body, turning back in every step or every second one, about a particle that
+//! gets on, and doesn't count for some seconds. So does a strand stick that rocks on a body, turning back in every step or every second one, about a particle that
 //! friction holds there. Roots, air, bodies and anchors that move make it forget.
 
 use crate::{
@@ -33,6 +33,8 @@ const SOMEWHERE: f64 = 0.3;
 const GETS_ON: f64 = 1.0;
 /// What jams may creep as well: a tip that has gone no faster than this, in m/s, gets nowhere either. What swings so fast goes half a millimetre to and fro.
 const CREEPS: f64 = 5e-3;
+/// Whatever others still press on counts so many seconds after all that acts came to rest: what swings hardly does any more, and what gets on wanders about in a jam.
+const LONG: f64 = 5.0;
 
 /// What rocks on a body turns back in each step or in each second one. A step in which it doesn't takes away this share of one in which it does, and
 /// what swings with a period of more than ten steps never counts.
@@ -79,7 +81,7 @@ fn turned_back(state: &mut BatchState, active: Mask) -> Mask {
     turned_back
 }
 
-/// The strands whose tips have gone to and fro of late without getting anywhere. Takes note of how they go.
+/// The strands whose tips have gone to and fro of late without getting anywhere, or still go long after all came to rest that acts. Takes note of how they go.
 #[inline(always)]
 fn goes_nowhere(state: &mut BatchState, active: Mask, dt: f64) -> Mask {
     let velocity = state.tip_way * (1.0 / dt);
@@ -90,7 +92,12 @@ fn goes_nowhere(state: &mut BatchState, active: Mask, dt: f64) -> Mask {
     state.tip_speed = active.pick(speed, state.tip_speed);
     let least = speed * SOMEWHERE;
     let creeps = speed.lt(Lane::splat(CREEPS));
-    drift.length_squared().lt(least * least).or(creeps)
+    let is_late = state.calm.gt(Lane::splat(LONG));
+    drift
+        .length_squared()
+        .lt(least * least)
+        .or(creeps)
+        .or(is_late)
 }
 
 /// What counts of the step before, in s: as moved, where others press on strands, or a body on those that are tied, and they go nowhere; and as rocked, where a
@@ -103,10 +110,7 @@ fn moved(
     [goes_nowhere, turned_back]: [Mask; 2],
 ) -> [Lane; 2] {
     let (bodies, others) = state.press.split_at(batch.count());
-    let mut tied = Lane::ZERO;
-    for own in drive.anchors {
-        tied[own.lane] = 1.0;
-    }
+    let tied = Mask::new(state.tied).pick(Lane::ONE, Lane::ZERO);
     let counts = |so_far: Lane, here: Mask, goes_on: f64| {
         let patient = so_far.lt(Lane::splat(PATIENCE[0]));
         here.pick(Lane::ONE, patient.pick(Lane::splat(-goes_on), Lane::ZERO))

@@ -269,3 +269,47 @@ fn roots_that_creep_keep_locks_awake() {
     println!("asleep after {first:?} steps, and {again:?} after roots have crept");
     assert!(first > Some(60) && again > Some(60), "{first:?}, {again:?}");
 }
+
+/// A lock whose root has gone round a curtain's end, and then straight back through its roots, hangs across the curtain, on its wrong side. It gets back to its own.
+#[test]
+fn neighbours_on_the_wrong_side_of_each_other_get_back() {
+    const DT: f64 = 1.0 / 60.0;
+    let (beside, behind) = (DVec3::X * 0.02, DVec3::Z * 0.012);
+    let mut strands = Strands::new();
+    row(&mut strands, 1, DVec3::ZERO, beside, DVec3::NEG_Y);
+    row(
+        &mut strands,
+        13,
+        beside - behind * 6.0,
+        behind,
+        DVec3::NEG_Y,
+    );
+    let (mut solver, mut state) = Solver::new(&strands, &params(10.0, RADIUS)).unwrap();
+    let (end, over) = (behind * 12.0, beside * 2.0);
+    let way = [DVec3::ZERO, end, end + over, over, DVec3::ZERO, DVec3::ZERO];
+    let (mut meetings, mut across) = (0, 0.0_f64);
+    for (part, ends) in way.windows(2).enumerate() {
+        for step in 1..=120 {
+            let mut roots = [Pose::IDENTITY; 14];
+            roots[0].translation = ends[0].lerp(ends[1], f64::from(step) / 120.0);
+            let surroundings = Surroundings {
+                roots: Roots::Each(&roots),
+                ..Surroundings::default()
+            };
+            let stats = solver.step(&mut state, &surroundings, DT).unwrap();
+            if part == 3 {
+                meetings += stats.meetings;
+                let tip = solver.points(&state, 0).last().unwrap();
+                across = across.max(tip.x - roots[0].translation.x);
+            }
+        }
+    }
+    let tip = solver.points(&state, 0).last().unwrap().x;
+    println!(
+        "{meetings} particles met others; the tip was held {across:.4} m back, and is {tip:.4} m off at last"
+    );
+    assert!(
+        meetings > 0 && across < 0.03 && tip.abs() < 1e-3,
+        "{across}, {tip}"
+    );
+}
