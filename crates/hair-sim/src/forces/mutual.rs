@@ -103,10 +103,20 @@ pub(crate) struct Course {
 }
 
 /// What a batch's pairs did in a step.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Counts {
     pub links: usize,
     pub repulsions: usize,
+    /// The strands that any of them pulls or pushes.
+    pub acts_on: Mask,
+}
+
+impl Counts {
+    const NONE: Self = Self {
+        links: 0,
+        repulsions: 0,
+        acts_on: Mask::NONE,
+    };
 }
 
 /// The start and end of a step of one batch, for [`act`].
@@ -216,7 +226,7 @@ pub(crate) fn act<T: Number>(
     T::run(
         #[inline(always)]
         move || {
-            let mut counts = Counts::default();
+            let mut counts = Counts::NONE;
             let link = Kind::new(mutual, mutual.link, STIFFEST_LINKS, own.dt);
             let repulsion = Kind::new(mutual, mutual.repulsion, STIFFEST_REPULSION, own.dt);
             let (root_before, root_now) = (own.root_before.load::<T>(), own.root_now.load::<T>());
@@ -241,6 +251,7 @@ pub(crate) fn act<T: Number>(
                     let close = pair.on.and(length.lt(keep * 0.999));
                     counts.links += holds.count();
                     counts.repulsions += close.count();
+                    counts.acts_on = counts.acts_on.or(holds).or(close);
                     if holds.any() {
                         let to = before - frame.rotate(pair.offset.load());
                         pulls.add(&link, holds, to, way);

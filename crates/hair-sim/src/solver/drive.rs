@@ -227,6 +227,7 @@ pub(crate) fn prepare<T: Number>(
     stats: &mut Stats,
 ) -> Mask {
     let loads = &mut scratch.work.loads;
+    loads.driven_by_others = Mask::NONE;
     loads.has_springs = batch.has_goal.any() || drive.others.is_some() || !drive.anchors.is_empty();
     if loads.has_springs {
         loads.springs.fill(Spring::NONE);
@@ -259,6 +260,7 @@ pub(crate) fn prepare<T: Number>(
         let pairs = (others.pairs, others.courses);
         let counts = mutual::act::<T>(others.mutual, pairs, &own, broken, springs);
         (stats.links, stats.repulsions) = (counts.links, counts.repulsions);
+        loads.driven_by_others = counts.acts_on;
     }
     let active = batch.used.and(state.aside().not()).and(awake);
     if batch.has_drag.any() && drive.gusts[1].blows {

@@ -88,7 +88,7 @@ pub(crate) fn watch<T: Number>(
     watched
 }
 
-/// Strands whose roots rest, in still air, without goals, anchors, contacts and other hair.
+/// Strands whose roots rest, in still air, without goals, anchors and contacts, that no other hair pulls or pushes.
 #[inline(always)]
 fn undriven(
     batch: &Batch,
@@ -97,9 +97,6 @@ fn undriven(
     drive: &Drive,
     root: &RootMotion,
 ) -> Mask {
-    if drive.others.is_some() {
-        return Mask::NONE;
-    }
     // A root at rest may be about to move.
     let gravity = Vec3::splat(drive.surroundings.gravity);
     let moves = root.turn_end.v.length_squared()
@@ -107,7 +104,8 @@ fn undriven(
         + state.root_velocity.length_squared()
         + (root.pull_mid - gravity).length_squared()
         + (root.pull - gravity).length_squared();
-    let mut free = moves.gt(Lane::splat(1e-24)).not().and(batch.has_goal.not());
+    let is_driven = batch.has_goal.or(loads.driven_by_others);
+    let mut free = moves.gt(Lane::splat(1e-24)).or(is_driven).not();
     if drive.gusts.iter().any(|gusts| gusts.blows) {
         free = free.and(batch.has_drag.not());
     }

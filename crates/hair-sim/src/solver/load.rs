@@ -23,6 +23,8 @@ pub(crate) struct Loads {
     /// Whether there are any springs in this step.
     pub has_springs: bool,
     pub springs: Vec<Spring>,
+    /// Strands that others pull or push in this step.
+    pub driven_by_others: Mask,
     /// The share of its friction that is left to each particle, where any is recalled.
     pub grips: Vec<Lane>,
     pub contacts: Vec<Contact>,
@@ -42,6 +44,7 @@ impl Loads {
             free_v: vec![Vec3::ZERO; count],
             has_springs: false,
             springs: vec![Spring::NONE; count],
+            driven_by_others: Mask::NONE,
             grips: vec![Lane::ONE; count],
             contacts: vec![Contact::NONE; planes],
             touched: Vec::with_capacity(planes),

@@ -79,7 +79,9 @@ pub(super) fn pairs(
     for (strand, nearest) in strands.iter().zip(nearest) {
         for (n, other) in nearest.into_iter().map(|i| &strands[i]).enumerate() {
             let count = batches[strand.batch].count();
-            for k in (1..strand.particles.len()).step_by(2) {
+            // Every second one; of a single link its end.
+            let own = strand.particles.len();
+            for k in (own.min(2) - 1..own).step_by(2) {
                 let Some(partner) = closest(strand.particles[k], &other.particles) else {
                     continue;
                 };
@@ -126,25 +128,17 @@ fn in_order(slots: &[Option<usize>], count: usize, pairs: &[Pair]) -> Vec<Pair> 
 
 /// The strands by the cubes of space that their roots are in.
 struct Cells {
-    low: DVec3,
     /// The edge of a cube in m.
     size: f64,
     strands: HashMap<[i64; 3], Vec<usize>>,
 }
 
 impl Cells {
-    /// With a few strands in each cube that has any, where roots lie on a surface.
+    /// With a few strands in each cube that has any, where roots lie on a surface, however far from it some lie.
     fn new(strands: &[Strand]) -> Self {
-        let mut low = DVec3::INFINITY;
-        let mut high = DVec3::NEG_INFINITY;
-        for strand in strands {
-            low = low.min(strand.root);
-            high = high.max(strand.root);
-        }
-        let extent = (high - low).length();
+        let extent = DVec3::from_array([0, 1, 2].map(|axis| nine_tenths(strands, axis))).length();
         let size = (extent / (strands.len() as f64).sqrt()).max(1e-9);
         let mut cells = Self {
-            low,
             size,
             strands: HashMap::new(),
         };
@@ -156,10 +150,7 @@ impl Cells {
     }
 
     fn cell(&self, at: DVec3) -> [i64; 3] {
-        ((at - self.low) / self.size)
-            .floor()
-            .to_array()
-            .map(|v| v as i64)
+        (at / self.size).floor().to_array().map(|v| v as i64)
     }
 
     /// The same of each of some strands.
@@ -216,6 +207,14 @@ impl Cells {
     }
 }
 
+/// How far roots lie apart along an axis, without a twentieth at either end.
+fn nine_tenths(strands: &[Strand], axis: usize) -> f64 {
+    let mut places: Vec<f64> = strands.iter().map(|strand| strand.root[axis]).collect();
+    places.sort_unstable_by(f64::total_cmp);
+    let at = |twentieths: usize| places.get(places.len() * twentieths / 20).copied();
+    at(19).unwrap_or(0.0) - at(1).unwrap_or(0.0)
+}
+
 /// The first `count` in an order.
 fn first(
     mut all: Vec<usize>,
@@ -267,6 +266,9 @@ mod tests {
             });
             assert_eq!(cells.nearest(strand, &strands, 16), all[..16]);
         }
+        // What is far away leaves the others in cubes of their own.
+        let most = cells.strands.values().map(Vec::len).max();
+        assert!(most < Some(30), "{most:?}");
         let one = &strands[..1];
         assert!(Cells::new(one).nearest(&one[0], one, 4).is_empty());
     }

@@ -2,7 +2,8 @@
 
 use glam::{DQuat, DVec3, Vec3};
 use hair_sim::{
-    Collider, GRAVITY, Material, Params, Pose, Roots, Shape, Solver, Strands, Surroundings,
+    Collider, GRAVITY, Material, Mutual, Natural, Params, Pose, Roots, Shape, Solver, Strands,
+    Surroundings,
 };
 
 use crate::{check, step, strand};
@@ -139,6 +140,50 @@ fn a_joint_near_half_a_turn_comes_to_rest() {
                 // What lifts a strand by its length is 0.14.
                 assert!(change < 1e-6, "gamma {gamma}, strand {s}: {change}");
             }
+        }
+    }
+}
+
+/// Of a strand that partners could act on but don't, its energy is looked after, too: steps of a frame would make some of it.
+#[test]
+fn a_strand_whose_partners_do_not_act_gains_no_energy() {
+    let shapes = [(0.3, -2.0), (1.0, 1.0), (1.6, 0.0), (2.5, 3.0)];
+    for ((start, bend), rate) in shapes
+        .into_iter()
+        .flat_map(|shape| [(shape, 60.0), (shape, 120.0)])
+    {
+        let mut rest = Strands::new();
+        for (id, beside) in [(0, 0.0), (1, 5.0)] {
+            let mut points = vec![beside * Vec3::X];
+            for k in 0..20 {
+                let angle = start + bend * k as f32 / 20.0;
+                let along = Vec3::new(angle.sin(), -angle.cos(), 0.3 * (1.3 * angle).sin());
+                points.push(points[k] + 0.0125 * along.normalize());
+            }
+            rest.push(id, &points, None).unwrap();
+        }
+        let params = Params {
+            material: Material::from_gamma(1000.0, 0.25),
+            natural: Natural::Styled,
+            damping: 0.0,
+            drag: 0.0,
+            ..Params::default()
+        };
+        let (mut solver, mut state) = Solver::new(&rest, &params).unwrap();
+        solver.interact(&mut state, &Mutual::default()).unwrap();
+        let surroundings = Surroundings::default();
+        // Over that of a strand that hangs straight.
+        let energy = |solver: &Solver, state: &_| {
+            solver.energy(state, 0, surroundings.gravity) + 0.5 * GRAVITY * 0.25 * 0.25
+        };
+        let first = energy(&solver, &state);
+        for i in 0..20 * rate as u32 {
+            step(&mut solver, &mut state, &surroundings, 1.0 / rate);
+            let now = energy(&solver, &state);
+            assert!(
+                now < 1.02 * first,
+                "{start}, {bend}, step {i} of 1/{rate} s: {now} of {first}"
+            );
         }
     }
 }
