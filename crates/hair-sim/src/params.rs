@@ -156,8 +156,8 @@ pub struct Params {
     /// Coulomb's coefficient of friction, 0 to 10.
     pub friction: f64,
     /// Half the thickness in m of the lock that a strand stands for, 0 to 0.1. Locks that are apart at rest don't pass through each other,
-    /// but keep both radii between their strands; 0: they do. So does what is recalled. Where they jam, a strand that moves for 2 s while nothing else does
-    /// begins to stick to the head, and comes to rest.
+    /// but keep both radii between their strands; 0: they do. So does what is recalled, and a neighbour that has got onto the wrong side, but for strands with
+    /// anchors. Where they jam, a strand that moves for 2 s while nothing else does begins to stick to the head, and comes to rest.
     pub lock_radius: f64,
 }
 

@@ -6,6 +6,9 @@
 //! below (repulsion), and, where it began close enough, its offset in the frame of the strand (a static link), until
 //! it is pulled too far apart. The other strand is where its own motion would take it, so that strands stay
 //! independent within a step.
+//!
+//! A pair acts on the strand that it belongs to, not on the other one, whose own nearest may be others: a strand beside a dense bundle is held by it, and
+//! hardly holds it. So the momentum of both together isn't kept.
 
 use glam::DVec3;
 
