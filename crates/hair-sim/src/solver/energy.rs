@@ -97,6 +97,10 @@ fn undriven(
     drive: &Drive,
     root: &RootMotion,
 ) -> Mask {
+    let is_driven = batch.has_goal.or(loads.driven_by_others);
+    if !batch.used.and(is_driven.not()).any() {
+        return Mask::NONE;
+    }
     // A root at rest may be about to move.
     let gravity = Vec3::splat(drive.surroundings.gravity);
     let moves = root.turn_end.v.length_squared()
@@ -104,7 +108,6 @@ fn undriven(
         + state.root_velocity.length_squared()
         + (root.pull_mid - gravity).length_squared()
         + (root.pull - gravity).length_squared();
-    let is_driven = batch.has_goal.or(loads.driven_by_others);
     let mut free = moves.gt(Lane::splat(1e-24)).or(is_driven).not();
     if drive.gusts.iter().any(|gusts| gusts.blows) {
         free = free.and(batch.has_drag.not());
