@@ -33,8 +33,10 @@ const SOMEWHERE: f64 = 0.3;
 const GETS_ON: f64 = 1.0;
 /// What jams may creep as well: a tip that has gone no faster than this, in m/s, gets nowhere either. What swings so fast goes half a millimetre to and fro.
 const CREEPS: f64 = 5e-3;
-/// Whatever others still press on counts so many seconds after all that acts came to rest: what swings hardly does any more, and what gets on wanders about in a jam.
+/// Whatever others still press on counts so many seconds after all that acts came to rest, and after so many over its drag: little is left of what swung, and
+/// what gets on wanders about in a jam. Without drag none does, as it may swing for ever.
 const LONG: f64 = 5.0;
+const SWUNG: f64 = 5.0;
 
 /// What rocks on a body turns back in each step or in each second one. A step in which it doesn't takes away this share of one in which it does, and
 /// what swings with a period of more than ten steps never counts.
@@ -50,7 +52,7 @@ pub(super) fn calm_down(
     active: Mask,
 ) {
     let turned_back = turned_back(state, active);
-    let goes_nowhere = goes_nowhere(state, active, drive.dt);
+    let goes_nowhere = goes_nowhere(batch, state, active, drive.dt);
     let [jams, rocks] = moved(batch, state, drive, [goes_nowhere, turned_back])
         .map(|counts| active.pick(counts, Lane::ZERO));
     if [jams, rocks, state.restless, state.rocking] == [Lane::ZERO; 4] {
@@ -83,7 +85,7 @@ fn turned_back(state: &mut BatchState, active: Mask) -> Mask {
 
 /// The strands whose tips have gone to and fro of late without getting anywhere, or still go long after all came to rest that acts. Takes note of how they go.
 #[inline(always)]
-fn goes_nowhere(state: &mut BatchState, active: Mask, dt: f64) -> Mask {
+fn goes_nowhere(batch: &Batch, state: &mut BatchState, active: Mask, dt: f64) -> Mask {
     let velocity = state.tip_way * (1.0 / dt);
     let share = dt / (dt + LATE);
     let drift = state.tip_drift + (velocity - state.tip_drift) * share;
@@ -92,12 +94,22 @@ fn goes_nowhere(state: &mut BatchState, active: Mask, dt: f64) -> Mask {
     state.tip_speed = active.pick(speed, state.tip_speed);
     let least = speed * SOMEWHERE;
     let creeps = speed.lt(Lane::splat(CREEPS));
+    let nowhere = drift.length_squared().lt(least * least).or(creeps);
+    nowhere.or(has_swung(batch, state))
+}
+
+/// The strands that hardly swing any more, as nothing has acted for so long.
+#[inline(always)]
+fn has_swung(batch: &Batch, state: &BatchState) -> Mask {
     let is_late = state.calm.gt(Lane::splat(LONG));
-    drift
-        .length_squared()
-        .lt(least * least)
-        .or(creeps)
-        .or(is_late)
+    if !is_late.any() {
+        return Mask::NONE;
+    }
+    let mut drag = Lane::ZERO;
+    for particle in &batch.particles {
+        drag = drag.max(particle.drag);
+    }
+    is_late.and((state.calm * drag).gt(Lane::splat(SWUNG)))
 }
 
 /// What counts of the step before, in s: as moved, where others press on strands, or a body on those that are tied, and they go nowhere; and as rocked, where a

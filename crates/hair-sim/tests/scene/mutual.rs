@@ -217,3 +217,24 @@ fn stiff_links_come_to_rest() {
         );
     }
 }
+
+/// Strands of a single link are linked as longer ones are.
+#[test]
+fn strands_of_one_link_have_partners() {
+    for points in [2, 3] {
+        let mut strands = Strands::new();
+        for s in 0..4 {
+            let root = Vec3::X * (0.004 * s as f32);
+            let line: Vec<Vec3> = (0..points)
+                .map(|i| root + Vec3::NEG_Y * (0.02 * i as f32))
+                .collect();
+            strands.push(s, &line, None).unwrap();
+        }
+        let (mut solver, mut state) = Solver::new(&strands, &params(50.0)).unwrap();
+        solver.interact(&mut state, &Mutual::default()).unwrap();
+        let stats = solver
+            .step(&mut state, &Surroundings::default(), 1.0 / 60.0)
+            .unwrap();
+        assert_eq!(stats.links, 4 * 3, "{points} points");
+    }
+}
