@@ -6,7 +6,7 @@ use crate::program::{cargo, succeed};
 use crate::{Outcome, count};
 
 /// Suites of the program, and our own.
-const SUITES: [&str; 11] = [
+const SUITES: [&str; 12] = [
     "all",
     "strokes",
     "dynamics",
@@ -17,6 +17,7 @@ const SUITES: [&str; 11] = [
     "cartoon",
     "lines",
     "skip",
+    "rest",
     COUNT,
 ];
 const COUNT: &str = "count";

@@ -212,12 +212,12 @@ impl Options {
 }
 
 /// Where the looks are that come with inkstrand.
-const LOOKS: &str = "presets";
+pub(crate) const LOOKS: &str = "presets";
 /// Where the looks are that don't change.
 pub(crate) const YARDSTICKS: &str = "tests/yardsticks";
 
 /// The presets of a folder, by name.
-fn presets(folder: &Path) -> Result<Vec<PathBuf>, BenchError> {
+pub(crate) fn presets(folder: &Path) -> Result<Vec<PathBuf>, BenchError> {
     let entries = std::fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
     paths.retain(|path| path.extension().is_some_and(|ending| ending == "ron"));

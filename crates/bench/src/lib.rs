@@ -13,6 +13,7 @@ pub mod page;
 pub mod plot;
 pub mod python;
 pub mod ratios;
+pub mod rest;
 pub mod results;
 pub mod scale;
 pub mod skip;

@@ -13,7 +13,8 @@ use bench::page::{self, Finished};
 use bench::results::Row;
 use bench::targets::{Target, report};
 use bench::{
-    cartoon, character, coherence, frame, lines, ratios, results, scale, skip, stress, strokes,
+    cartoon, character, coherence, frame, lines, ratios, rest, results, scale, skip, stress,
+    strokes,
 };
 use clap::{Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -52,6 +53,8 @@ enum Suite {
     Lines(LineOptions),
     /// Skip: what a scene doesn't need, and what it costs all the same
     Skip(RatioOptions),
+    /// Rest: whether hair of looks comes back, and to rest, after turns and shakes of the head
+    Rest(Options),
     /// No measure: random scenes with hostile numbers, in which strands must hold
     Stress(StressOptions),
     /// No measure: writes the character of suite frame, and presets with it and without, for `cargo xtask bench count --release`
@@ -197,6 +200,7 @@ fn main() -> ExitCode {
         Suite::Cartoon(options) => cartoon(options).map(|it| exit_code(&it, options.common.check)),
         Suite::Lines(options) => lines(options).map(|it| exit_code(&it, options.common.check)),
         Suite::Skip(options) => skip(options).map(|it| exit_code(&it, options.common.check)),
+        Suite::Rest(options) => rest(options).map(|it| exit_code(&it, options.check)),
     };
     done.unwrap_or_else(|error| {
         eprintln!("bench: {error}");
@@ -231,6 +235,7 @@ fn all(options: &CardOptions) -> Result<ExitCode, BenchError> {
             store: false,
         })?,
         skip(&with_ratios())?,
+        rest(&options.common)?,
     ];
     let out = &options.common.out;
     let machine = results::machine(
@@ -540,6 +545,26 @@ fn skip(options: &RatioOptions) -> Result<Finished, BenchError> {
         &["skip.csv"],
         measured.rows,
         targets,
+    ))
+}
+
+fn rest(options: &Options) -> Result<Finished, BenchError> {
+    let suite = rest::Options {
+        root: root(),
+        out: options.out.clone(),
+        quick: options.quick,
+        threads: options.threads(),
+    };
+    let measured = with_progress(|progress| rest::run(&suite, progress))?;
+    println!("{}", measured.summary);
+    println!("{}", report(&measured.targets));
+    // A page has no use for a thousand rows of simulated seconds; the file has them.
+    Ok(finished(
+        "rest",
+        options,
+        &["rest.csv"],
+        Vec::new(),
+        measured.targets,
     ))
 }
 
