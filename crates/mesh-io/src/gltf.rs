@@ -66,6 +66,7 @@ pub fn from_bytes(bytes: &[u8], folder: &Path) -> Result<Model, GltfError> {
     rig.deforms = deforms;
     rig.springs = springs::read(&document, &rig, &mut notes);
     notes.extend(nodes::missing_bones(&document).take(MOST_NOTES));
+    notes.extend(nodes::unmoved(&document).take(MOST_NOTES));
 
     notes.append(&mut materials.notes);
     notes.truncate(MOST_NOTES);
@@ -95,20 +96,16 @@ impl Model {
         let Some(rig) = &self.rig else { return };
         let rest = rig.rest();
         let shapes = self.shapes(&rest);
-        let mirrored: Vec<bool> = {
-            let world = rig.world(&rest);
-            let is_mirrored = |deform: &crate::rig::Deform| {
-                deform.skin.is_none() && world[deform.node].matrix3.determinant() < 0.0
-            };
-            rig.deforms.iter().map(is_mirrored).collect()
-        };
-        for ((mesh, shape), is_mirrored) in self.meshes.iter_mut().zip(shapes).zip(mirrored) {
+        let world = rig.world(&rest);
+        for ((mesh, shape), deform) in self.meshes.iter_mut().zip(shapes).zip(&rig.deforms) {
             mesh.positions = shape.positions;
             mesh.normals = shape.normals;
-            if is_mirrored {
-                mesh.triangles
-                    .iter_mut()
-                    .for_each(|triangle| triangle.swap(1, 2));
+            let mirrors = rig.mirrors(deform, &world);
+            for triangle in &mut mesh.triangles {
+                let corners = triangle.iter().filter(|corner| mirrors(**corner as usize));
+                if corners.count() >= 2 {
+                    triangle.swap(1, 2);
+                }
             }
         }
     }

@@ -298,6 +298,42 @@ impl Rig {
     }
 }
 
+impl Rig {
+    /// Tells of a vertex of a mesh whether nodes that are at `world` mirror it, so that what was the outside of its triangles is the inside
+    /// (glTF 2.0, 3.7.4).
+    #[cfg_attr(
+        not(feature = "gltf"),
+        expect(dead_code, reason = "only glTF has nodes")
+    )]
+    pub(crate) fn mirrors<'a>(
+        &'a self,
+        deform: &'a Deform,
+        world: &[DAffine3],
+    ) -> impl Fn(usize) -> bool + use<'a> {
+        let skin = deform.skin.map(|skin| &self.skins[skin]);
+        let skin = skin.filter(|_| !deform.influences.is_empty());
+        let by_node = world[deform.node].matrix3.determinant() < 0.0;
+        let moves: Vec<Affine3A> = skin.map_or(Vec::new(), |skin| {
+            let joints = skin.joints.iter().zip(&skin.inverse);
+            joints
+                .map(|(joint, inverse)| single(world[*joint] * *inverse))
+                .collect()
+        });
+        // Between joints that don't mirror nothing does.
+        let by_any = moves.iter().any(|by| by.matrix3.determinant() < 0.0);
+        move |vertex| match skin {
+            None => by_node,
+            Some(_) => {
+                by_any
+                    && blend(&moves, &deform.influences[vertex])
+                        .matrix3
+                        .determinant()
+                        < 0.0
+            }
+        }
+    }
+}
+
 /// The mean of what the joints do to a vertex.
 fn blend(moves: &[Affine3A], influences: &Influences) -> Affine3A {
     let mut sum = Affine3A::ZERO;

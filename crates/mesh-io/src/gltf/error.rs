@@ -137,9 +137,6 @@ pub enum PartError {
         /// How many there are.
         count: usize,
     },
-    /// A property that nodes don't have.
-    #[error("nodes have no property `{0}` that could move")]
-    Property(String),
     /// Two channels move the same.
     #[error("the {0} of its node is moved by another channel too")]
     Twice(&'static str),
@@ -185,6 +182,9 @@ pub enum PartError {
         /// How many numbers an element must have.
         wanted: usize,
     },
+    /// Whole numbers where parts of a whole are meant.
+    #[error("accessor {0} is of whole numbers that are not `normalized`")]
+    NotNormalized(usize),
     /// Indices of another kind.
     #[error("accessor {0} is not of whole numbers that could be indices")]
     NotIndices(usize),

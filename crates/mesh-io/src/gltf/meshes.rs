@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use glam::{Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 
 use super::document::{Document, Primitive};
 use super::error::{GltfError, PartError, in_quotes};
@@ -56,21 +56,29 @@ pub(super) fn read(
                     source,
                 })?;
             match read {
-                Some((mesh, deform, free)) => {
-                    if free > 0 {
-                        notes.push(format!(
-                            "mesh {number}{}, primitive {index}: {free} vertices have no weight, and go with the skin's first joint",
+                Some(read) => {
+                    let place = || {
+                        format!(
+                            "mesh {number}{}, primitive {index}",
                             in_quotes(&shown(&name))
+                        )
+                    };
+                    if read.free > 0 {
+                        notes.push(format!(
+                            "{}: {} vertices have no weight, and go with the skin's first joint",
+                            place(),
+                            read.free
                         ));
                     }
+                    notes.extend(read.unread.iter().map(|own| format!("{}: {own}", place())));
                     meshes.push(Mesh {
                         name: name.clone(),
-                        ..mesh
+                        ..read.mesh
                     });
                     deforms.push(Deform {
                         node,
                         skin: own.skin,
-                        ..deform
+                        ..read.deform
                     });
                 }
                 None => left_out += 1,
@@ -119,6 +127,16 @@ fn morph_names(extras: [&serde_json::Value; 2]) -> Vec<String> {
     names.into_iter().flatten().map(name).collect()
 }
 
+/// A primitive.
+struct Read {
+    mesh: Mesh,
+    deform: Deform,
+    /// How many of its vertices no joint moves although it has a skin.
+    free: usize,
+    /// Attributes that nothing needs and that can't be read, with why.
+    unread: Vec<String>,
+}
+
 struct Reader<'a> {
     document: &'a Document,
     primitive: &'a Primitive,
@@ -128,12 +146,12 @@ struct Reader<'a> {
 }
 
 impl Reader<'_> {
-    /// The mesh, what moves it, and how many of its vertices no joint does although it has a skin; `None` where there is no triangle.
+    /// Reads it; `None` where there is no triangle.
     fn read(
         &self,
         materials: &Materials,
         buffers: &mut Buffers,
-    ) -> Result<Option<(Mesh, Deform, usize)>, PartError> {
+    ) -> Result<Option<Read>, PartError> {
         let primitive = self.primitive;
         let mode = primitive.mode.unwrap_or(4);
         if !(4..=6).contains(&mode) {
@@ -160,7 +178,8 @@ impl Reader<'_> {
             Some(accessor) => buffers.indices(accessor)?,
             None => (0..count).collect(),
         };
-        let triangles = triangles(mode, &corners, &positions)?;
+        let morphs = self.morphs(count, buffers)?;
+        let triangles = triangles(mode, &corners, &positions, &morphs)?;
         if triangles.is_empty() {
             return Ok(None);
         }
@@ -193,13 +212,16 @@ impl Reader<'_> {
                 || name.starts_with("JOINTS_")
                 || name.starts_with("WEIGHTS_"))
         };
+        let mut unread = Vec::new();
         for (name, &accessor) in primitive
             .attributes
             .iter()
             .filter(|(name, _)| is_free(name))
         {
-            mesh.attributes
-                .push(self.attribute(name, accessor, count, &kept, buffers)?);
+            match self.attribute(name, accessor, count, &kept, buffers) {
+                Ok(attribute) => mesh.attributes.push(attribute),
+                Err(source) => unread.push(format!("its {} is not read: {source}", shown(name))),
+            }
         }
         mesh.mend_normals();
 
@@ -211,10 +233,15 @@ impl Reader<'_> {
             positions: mesh.positions.clone(),
             normals: mesh.normals.clone(),
             influences,
-            morphs: self.morphs(count, &kept, buffers)?,
+            morphs: morphs.into_iter().map(|morph| kept.morph(morph)).collect(),
             ..Deform::default()
         };
-        Ok(Some((mesh, deform, free)))
+        Ok(Some(Read {
+            mesh,
+            deform,
+            free,
+            unread,
+        }))
     }
 
     /// A list with an element a vertex.
@@ -317,12 +344,8 @@ impl Reader<'_> {
         Ok((all.into_iter().map(most).collect(), free))
     }
 
-    fn morphs(
-        &self,
-        count: usize,
-        kept: &Kept,
-        buffers: &mut Buffers,
-    ) -> Result<Vec<Morph>, PartError> {
+    /// What each morph does to all vertices.
+    fn morphs(&self, count: usize, buffers: &mut Buffers) -> Result<Vec<Morph>, PartError> {
         let mut list = |target: &BTreeMap<String, usize>, name: &str| match target.get(name) {
             None => Ok(Vec::new()),
             Some(&accessor) => {
@@ -331,7 +354,7 @@ impl Reader<'_> {
                     &format!("morph's {name}"),
                     count,
                 )?;
-                Ok(kept.pick(&vectors(list)))
+                Ok(vectors(list))
             }
         };
         let mut morphs = Vec::new();
@@ -357,11 +380,12 @@ fn vectors(numbers: Vec<[f64; 3]>) -> Vec<Vec3> {
         .collect()
 }
 
-/// The triangles of a list, strip or fan of corners; those without an area are left out.
+/// The triangles of a list, strip or fan of corners; those that have no area, and that no morph gives one, are left out.
 fn triangles(
     mode: u32,
     corners: &[usize],
     positions: &[Vec3],
+    morphs: &[Morph],
 ) -> Result<Vec<[usize; 3]>, PartError> {
     let count = match mode {
         4 => corners.len() / 3,
@@ -387,8 +411,12 @@ fn triangles(
                 count: positions.len(),
             });
         }
-        let [a, b, c] = own.map(|vertex| positions[vertex].as_dvec3());
-        if (b - a).cross(c - a) != glam::DVec3::ZERO {
+        let has_area = |moves: &[Vec3]| {
+            let by = |vertex: usize| moves.get(vertex).map_or(DVec3::ZERO, |by| by.as_dvec3());
+            let [a, b, c] = own.map(|vertex| positions[vertex].as_dvec3() + by(vertex));
+            (b - a).cross(c - a) != DVec3::ZERO
+        };
+        if has_area(&[]) || morphs.iter().any(|morph| has_area(&morph.positions)) {
             triangles.push(own);
         }
     }
@@ -419,6 +447,19 @@ impl Kept {
         Self {
             vertices,
             triangles,
+        }
+    }
+
+    /// What a morph does to these.
+    fn morph(&self, morph: Morph) -> Morph {
+        let pick = |moves: Vec<Vec3>| match moves.is_empty() {
+            true => moves,
+            false => self.pick(&moves),
+        };
+        Morph {
+            positions: pick(morph.positions),
+            normals: pick(morph.normals),
+            name: morph.name,
         }
     }
 

@@ -1,6 +1,6 @@
 //! Nodes, skins and animations of a glTF file.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DAffine3, DMat4, DQuat, DVec3};
 
@@ -109,7 +109,7 @@ pub(super) fn read(document: &Document, buffers: &mut Buffers) -> Result<Rig, Gl
 pub(super) fn rest_of(node: &document::Node) -> Transform {
     if let Some(matrix) = node.matrix {
         let matrix = DMat4::from_cols_array(&matrix.map(f64::from));
-        let (scale, rotation, translation) = matrix.to_scale_rotation_translation();
+        let (scale, rotation, translation) = parts_of(matrix);
         let is_whole = scale.is_finite() && rotation.is_finite() && rotation.length_squared() > 0.0;
         return Transform {
             translation,
@@ -136,6 +136,20 @@ pub(super) fn rest_of(node: &document::Node) -> Transform {
         },
         scale: vector(node.scale, DVec3::ONE),
     }
+}
+
+/// Scale, turn and place of a matrix. What it makes flat along one of its own axes has a turn all the same.
+fn parts_of(mut matrix: DMat4) -> (DVec3, DQuat, DVec3) {
+    let axes = [matrix.x_axis, matrix.y_axis, matrix.z_axis].map(|axis| axis.truncate());
+    let flat = axes.map(|axis| axis == DVec3::ZERO);
+    let Some(axis) = flat.iter().position(|is_flat| *is_flat) else {
+        return matrix.to_scale_rotation_translation();
+    };
+    let across = axes[(axis + 1) % 3].cross(axes[(axis + 2) % 3]);
+    *matrix.col_mut(axis) = across.normalize_or_zero().extend(0.0);
+    let (mut scale, rotation, translation) = matrix.to_scale_rotation_translation();
+    scale[axis] = 0.0;
+    (scale, rotation, translation)
 }
 
 /// The parent of each node.
@@ -253,14 +267,51 @@ fn read_skin(
     })
 }
 
-/// What a channel moves: node, property, and how; `None` where it is no node.
+/// What of a node an animation can move.
+#[derive(Clone, Copy)]
+pub(super) enum Property {
+    Translation,
+    Rotation,
+    Scale,
+    Weights,
+}
+
+impl Property {
+    fn named(name: &str) -> Option<Self> {
+        Some(match name {
+            "translation" => Self::Translation,
+            "rotation" => Self::Rotation,
+            "scale" => Self::Scale,
+            "weights" => Self::Weights,
+            _ => return None,
+        })
+    }
+}
+
+/// What to tell of what animations move and stays as it is, as extensions say it of nodes, each once.
+pub(super) fn unmoved(document: &Document) -> impl Iterator<Item = String> {
+    let channels = document.animations.iter().flat_map(|own| &own.channels);
+    let properties = channels.filter_map(|channel| Some(channel.target.node()?.1));
+    let unknown: BTreeSet<&str> = properties
+        .filter(|name| Property::named(name).is_none())
+        .collect();
+    unknown.into_iter().map(|name| {
+        let name = shown(name);
+        format!("an animation moves `{name}` of nodes, which stays as it is")
+    })
+}
+
+/// What a channel moves: node, property, and how; `None` where it is no node, or nothing of it that is known.
 pub(super) fn target<'a>(
     document: &Document,
     animation: &'a Animation,
     channel: usize,
-) -> Result<Option<(usize, &'a str, &'a Sampler)>, PartError> {
+) -> Result<Option<(usize, Property, &'a Sampler)>, PartError> {
     let channel = &animation.channels[channel];
-    let Some((node, property)) = channel.target.node() else {
+    let of_node = channel.target.node();
+    let Some((node, property)) =
+        of_node.and_then(|(node, name)| Some((node, Property::named(name)?)))
+    else {
         return Ok(None);
     };
     part(&document.nodes, "node", node)?;
@@ -271,26 +322,27 @@ pub(super) fn target<'a>(
 /// Reads what moves a property of a node, whose mesh has so many morphs; none where these are not read. When its last key is, in s.
 pub(super) fn read_track(
     tracks: &mut NodeTracks,
-    property: &str,
+    property: Property,
     sampler: &Sampler,
     morphs: Option<usize>,
     buffers: &mut Buffers,
 ) -> Result<f64, PartError> {
     match (property, morphs) {
-        ("translation", _) => put(&mut tracks.translation, "translation", || {
+        (Property::Translation, _) => put(&mut tracks.translation, "translation", || {
             vectors(sampler, buffers)
         }),
-        ("rotation", _) => put(&mut tracks.rotation, "rotation", || turns(sampler, buffers)),
-        ("scale", _) => put(&mut tracks.scale, "scale", || vectors(sampler, buffers)),
-        ("weights", None | Some(0)) => Ok(0.0),
-        ("weights", Some(morphs)) => {
+        (Property::Rotation, _) => {
+            put(&mut tracks.rotation, "rotation", || turns(sampler, buffers))
+        }
+        (Property::Scale, _) => put(&mut tracks.scale, "scale", || vectors(sampler, buffers)),
+        (Property::Weights, None | Some(0)) => Ok(0.0),
+        (Property::Weights, Some(morphs)) => {
             if !tracks.weights.is_empty() {
                 return Err(PartError::Twice("weights"));
             }
             tracks.weights = weights(sampler, morphs, buffers)?;
             Ok(tracks.weights[0].length())
         }
-        (other, _) => Err(PartError::Property(shown(other))),
     }
 }
 

@@ -93,10 +93,7 @@ impl<'a> Buffers<'a> {
         let accessor = part(&self.document.accessors, "accessor", index)?;
         let kind = Kind::of(accessor.component_type);
         if !(accessor.normalized || matches!(kind, Some(Kind::F32))) {
-            return Err(PartError::Kind {
-                accessor: index,
-                wanted: N,
-            });
+            return Err(PartError::NotNormalized(index));
         }
         self.numbers(index)
     }

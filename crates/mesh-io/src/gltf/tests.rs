@@ -8,6 +8,8 @@ use serde_json::{Value, json};
 use super::*;
 use crate::{Alpha, Mesh};
 
+mod exporters;
+
 /// A file that is put together part by part.
 struct File {
     bytes: Vec<u8>,
