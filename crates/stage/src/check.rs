@@ -149,7 +149,8 @@ impl<'r> Preset<'r> {
                 found.add(Err(PresetErrors(vec![mesh.mistake(error.to_string())])));
             }
             let texture = mesh.section.texture_path(&files.preset_folder);
-            if let Some(Err(error)) = texture.filter(|path| path.is_file()).map(painted::picture) {
+            let texture = texture.filter(|path| path.is_file());
+            if let Some(Err(error)) = texture.map(|path| painted::check_picture(&path)) {
                 let mistake = mesh.mistake_of_texture(format!("texture: {error}"));
                 found.add(Err(PresetErrors(vec![mistake])));
             }

@@ -7,10 +7,10 @@ use crate::lids::lids;
 use crate::meant::meant;
 use crate::mesh_hair;
 use crate::names::Names;
-use crate::painted::{self, PaintedMesh};
+use crate::painted::{self, PaintedMesh, shells, volume};
 use crate::preset::{
-    BlushChoice, DressChoice, ExpressionChoice, EyesChoice, HairFrom, HairSection, HeadColors,
-    HeadSection, HeadShape, Preset, UpAxis,
+    AlphaChoice, BlushChoice, DressChoice, ExpressionChoice, EyesChoice, HairFrom, HairSection,
+    HeadColors, HeadSection, HeadShape, Preset, UpAxis,
 };
 use crate::skeleton::Skeleton;
 use crate::style;
@@ -120,15 +120,25 @@ pub(crate) fn head(
     notes.extend(left_beside(preset, files, &path));
     let orientation = &orientation;
     let hidden = Names(section.hide.as_deref().unwrap_or_default());
-    let hidden = meant(hidden, &model, &path)?;
+    let mut hidden = meant(hidden, &model, &path)?;
+    if section.colors == HeadColors::File {
+        painted::hide_clear(&model, &path, &mut hidden, notes);
+    }
     let own_hair = match wants_own_hair(preset, files) {
         true => mesh_hair::find(&model, &path, orientation, &preset.sections.hair, &hidden)?,
         false => None,
     };
-    let is_gone = match &own_hair {
+    let mut is_gone = match &own_hair {
         Some(own) => either(&hidden, &own.is_hair),
         None => hidden.clone(),
     };
+    // What lies around her is drawn, and no part of her shape.
+    let is_shell = shells(&model, &is_gone);
+    for (is_gone, is_shell) in is_gone.iter_mut().zip(&is_shell) {
+        if *is_shell {
+            is_gone.fill(true);
+        }
+    }
     if own_hair.is_none() && preset.sections.hair.from == HairFrom::Character && lacks_head(&model)
     {
         notes.push(format!(
@@ -154,7 +164,10 @@ pub(crate) fn head(
     };
     let mut painted = match section.colors {
         HeadColors::Preset => Vec::new(),
-        HeadColors::File => painted::of_model(&model, &path, orientation, None, &hidden, notes)?,
+        HeadColors::File => {
+            let alpha = (None, AlphaChoice::File);
+            painted::of_model(&model, &path, orientation, alpha, &hidden, notes)?
+        }
     };
     let hair_paint = own_hair
         .as_ref()
@@ -172,6 +185,9 @@ pub(crate) fn head(
             turn_around(&mut mesh.triangles, &mut mesh.normals);
             mesh.is_turned = true;
         }
+    }
+    for mesh in &mut painted {
+        mesh.is_shell = is_shell[mesh.index];
     }
     let mut head = HeadModel::from(mesh);
     head.frame = frame.map(head_of);
@@ -399,18 +415,9 @@ fn figure(section: &HeadSection) -> Figure {
     }
 }
 
-/// Whether most of a mesh faces inwards: its signed volume, seen from its middle, is below 0.
+/// Whether most of a mesh faces inwards.
 fn is_inside_out(mesh: &Mesh) -> bool {
-    let middle = mesh.positions.iter().sum::<Vec3>() / mesh.positions.len().max(1) as f32;
-    let volume: f64 = mesh
-        .triangles
-        .iter()
-        .map(|triangle| {
-            let [a, b, c] = triangle.map(|i| (mesh.positions[i as usize] - middle).as_dvec3());
-            a.dot(b.cross(c))
-        })
-        .sum();
-    volume < 0.0
+    volume(&mesh.positions, &mesh.triangles) < 0.0
 }
 
 /// All strands of the hair, sorted by id.

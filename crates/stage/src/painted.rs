@@ -1,16 +1,21 @@
 //! Meshes in colours of their own: a character as its file paints it, and eyes, lashes, clothes or glasses beside a head.
 
+mod materials;
+mod shells;
+
+pub(crate) use materials::{MeshPaint, MeshPicture, check_picture};
+pub(crate) use shells::{shells, volume};
+
 use crate::files::StageError;
 use crate::meant::meant;
 use crate::names::Names;
 use crate::numbered::{Formed, MOST_CORNERS, MOST_FILES, Numbered};
-use crate::pictures;
 use crate::preset::{AlphaChoice, MeshSection};
 use crate::things::{Beating, Placed, Thing};
-use effects::Image;
 use glam::{Vec2, Vec3};
 use hair_io::orient::Orientation;
-use mesh_io::{Alpha, Material, Mesh, Model, Sequence, Wrap};
+use materials::{Pictures, clear_of, is_clear, paint_of, picture};
+use mesh_io::{Mesh, Model, Sequence};
 use render::{Coverage, Head};
 use std::path::Path;
 use std::sync::Arc;
@@ -33,6 +38,8 @@ pub(crate) struct PaintedMesh {
     pub kept: Vec<usize>,
     /// Whether its outside is where its file has the inside: its normals and triangles are turned around.
     pub is_turned: bool,
+    /// Whether its triangles face what they lie around, and are seen from that side alone: the shell that toon models have as their outline.
+    pub is_shell: bool,
     /// Whether hair lies on it, and covers it where it is a little deeper.
     pub is_cap: bool,
     /// What it is, where it moves by itself.
@@ -48,26 +55,6 @@ pub(crate) enum Moving {
     Beating(Beating),
     /// Numbered files.
     Numbered(Arc<Numbered>),
-}
-
-/// How a file paints a mesh.
-#[derive(Clone)]
-pub(crate) struct MeshPaint {
-    /// Linear; the picture is multiplied by it. None where the file says no colours.
-    pub color: Option<[f32; 3]>,
-    /// The same away from the light, where the file says it.
-    pub shade: Option<[f32; 3]>,
-    pub picture: Option<MeshPicture>,
-    /// Whether triangles are seen from behind.
-    pub both_sides: bool,
-}
-
-/// The picture on a mesh.
-#[derive(Clone)]
-pub(crate) struct MeshPicture {
-    pub image: Arc<Image>,
-    pub repeats: bool,
-    pub coverage: Coverage,
 }
 
 impl PaintedMesh {
@@ -132,22 +119,6 @@ impl PaintedMesh {
     }
 }
 
-impl MeshPaint {
-    /// Without colours in the file.
-    const NONE: Self = Self {
-        color: None,
-        shade: None,
-        picture: None,
-        both_sides: false,
-    };
-
-    /// Whether lines are drawn around it: not around what is seen through.
-    pub(crate) fn has_outline(&self) -> bool {
-        let coverage = self.picture.as_ref().map(|picture| picture.coverage);
-        coverage != Some(Coverage::Share)
-    }
-}
-
 /// Names of meshes or materials.
 #[derive(Clone, Copy)]
 pub(crate) struct MeshNames<'a>(pub Names<'a>);
@@ -169,12 +140,45 @@ pub(crate) fn names_of<'m>(model: &'m Model, mesh: &'m Mesh) -> impl Iterator<It
     names.into_iter().flatten().filter(|name| !name.is_empty())
 }
 
+/// Takes away the meshes of a character of whose material nothing shows, as files hide what isn't wanted at the time: `is_gone` tells of each mesh and each of
+/// its triangles whether it is not drawn.
+pub(crate) fn hide_clear(
+    model: &Model,
+    path: &Path,
+    is_gone: &mut [Vec<bool>],
+    notes: &mut Vec<String>,
+) {
+    if model.rig.is_none() {
+        return; // in other formats such an alpha is more often a mistake
+    }
+    let mut hidden: Vec<&str> = Vec::new();
+    for (mesh, is_gone) in model.meshes.iter().zip(is_gone) {
+        let material = mesh.material.and_then(|index| model.materials.get(index));
+        let Some(material) = material.filter(|own| is_clear(own) && is_gone.contains(&false))
+        else {
+            continue;
+        };
+        is_gone.fill(true);
+        if !hidden.contains(&material.name.as_str()) {
+            hidden.push(&material.name);
+        }
+    }
+    if !hidden.is_empty() {
+        notes.push(format!(
+            "{}: not drawn, as its alpha is less than what shows: `{}`",
+            path.display(),
+            hidden.join("`, `")
+        ));
+    }
+}
+
 /// The meshes of a model of which anything is left, whole, as they lie in our space: `is_gone` tells of each mesh and each of its triangles whether it is not.
+/// What is clear in their pictures is as `alpha` has it.
 pub(crate) fn of_model(
     model: &Model,
     path: &Path,
     orientation: &Orientation,
-    section: Option<usize>,
+    (section, alpha): (Option<usize>, AlphaChoice),
     is_gone: &[Vec<bool>],
     notes: &mut Vec<String>,
 ) -> Result<Vec<PaintedMesh>, StageError> {
@@ -183,10 +187,7 @@ pub(crate) fn of_model(
     for index in shown(is_gone) {
         let mesh = &model.meshes[index];
         let material = mesh.material.and_then(|index| model.materials.get(index));
-        let paint = match material {
-            None => MeshPaint::NONE,
-            Some(material) => paint_of(material, !mesh.uvs.is_empty(), &mut pictures)?,
-        };
+        let paint = paint_of(mesh, material, alpha, &mut pictures)?;
         let positions = mesh.positions.iter().map(|p| orientation.apply(*p));
         let normals = mesh.normals.iter().map(|n| orientation.up.to_y_up(*n));
         painted.push(PaintedMesh {
@@ -203,6 +204,7 @@ pub(crate) fn of_model(
             index,
             kept: Vec::new(),
             is_turned: false,
+            is_shell: false,
             is_cap: false,
             moving: None,
             form: 0,
@@ -218,77 +220,6 @@ pub(crate) fn shown(is_gone: &[Vec<bool>]) -> impl Iterator<Item = usize> {
     meshes
         .filter(|(_, gone)| gone.contains(&false))
         .map(|(index, _)| index)
-}
-
-fn paint_of(
-    material: &Material,
-    has_places: bool,
-    pictures: &mut Pictures,
-) -> Result<MeshPaint, StageError> {
-    let [red, green, blue, alpha] = material.base_color;
-    let texture = material.texture.filter(|_| has_places);
-    let picture = match texture {
-        None => None,
-        Some(texture) => pictures.get(texture.image)?.map(|image| MeshPicture {
-            image,
-            repeats: texture.wrap != [Wrap::Clamp; 2],
-            coverage: match material.alpha {
-                Alpha::Opaque => Coverage::Ignored,
-                // The picture's own, which is multiplied by the colour's.
-                Alpha::Cutout(least) => Coverage::Cut((least / alpha.max(1e-6)).clamp(0.0, 1.0)),
-                Alpha::Blend => Coverage::Share,
-            },
-        }),
-    };
-    Ok(MeshPaint {
-        color: Some([red, green, blue]),
-        shade: material.shade_color,
-        picture,
-        both_sides: material.double_sided,
-    })
-}
-
-/// The pictures of a model, each read once.
-struct Pictures<'m> {
-    model: &'m Model,
-    path: &'m Path,
-    read: Vec<Option<Arc<Image>>>,
-    notes: Vec<String>,
-}
-
-impl<'m> Pictures<'m> {
-    fn new(model: &'m Model, path: &'m Path) -> Self {
-        Self {
-            model,
-            path,
-            read: vec![None; model.images.len()],
-            notes: Vec::new(),
-        }
-    }
-
-    /// The picture of that index; none where the model has no such.
-    fn get(&mut self, index: usize) -> Result<Option<Arc<Image>>, StageError> {
-        let (Some(known), Some(image)) = (self.read.get_mut(index), self.model.images.get(index))
-        else {
-            return Ok(None);
-        };
-        if let Some(known) = known {
-            return Ok(Some(known.clone()));
-        }
-        let fault = |message: String| StageError::Picture {
-            path: self.path.to_owned(),
-            name: image.name.clone(),
-            message,
-        };
-        let bytes = image.bytes().map_err(|error| fault(error.to_string()))?;
-        let (picture, note) = pictures::decode(&bytes).map_err(fault)?;
-        if let Some(note) = note {
-            let path = self.path.display();
-            self.notes
-                .push(format!("{path}: picture `{}` {note}", image.name));
-        }
-        Ok(Some(known.insert(Arc::new(picture)).clone()))
-    }
 }
 
 /// The meshes that a preset lists, beside the head whose axes and unit they have.
@@ -367,10 +298,20 @@ impl OfFile<'_> {
                 .flat_map(|(g, w)| g.iter_mut().zip(w));
             triangles.for_each(|(is_gone, wanted)| *is_gone |= !wanted);
         }
+        let picture_path = section.texture_path(self.folder);
+        if section.alpha == AlphaChoice::File && picture_path.is_none() {
+            hide_clear(model, path, &mut is_gone, notes);
+        }
         let (orientation, number) = (self.orientation, Some(self.number));
-        let mut meshes = of_model(model, path, orientation, number, &is_gone, notes)?;
-        if let Some(picture_path) = section.texture_path(self.folder) {
-            let image = picture(&picture_path)?;
+        let of_section = (number, section.alpha);
+        let mut meshes = of_model(model, path, orientation, of_section, &is_gone, notes)?;
+        if let Some(picture_path) = picture_path {
+            let coverage = match section.alpha {
+                AlphaChoice::Whole => Coverage::Ignored,
+                AlphaChoice::Blend => Coverage::Share,
+                AlphaChoice::File | AlphaChoice::Cut => Coverage::Cut(0.5),
+            };
+            let image = picture(&picture_path, clear_of(coverage, 1.0))?;
             for mesh in &mut meshes {
                 let own = &model.meshes[mesh.index];
                 if own.uvs.is_empty() {
@@ -380,24 +321,17 @@ impl OfFile<'_> {
                 mesh.paint.picture = Some(MeshPicture {
                     image: image.clone(),
                     repeats: true,
-                    coverage: Coverage::Cut(0.5),
+                    coverage,
                 });
             }
         }
-        let coverage = match section.alpha {
-            AlphaChoice::File => None,
-            AlphaChoice::Whole => Some(Coverage::Ignored),
-            AlphaChoice::Cut => Some(Coverage::Cut(0.5)),
-            AlphaChoice::Blend => Some(Coverage::Share),
-        };
+        let is_shell = shells(model, &is_gone);
         for mesh in &mut meshes {
+            mesh.is_shell = is_shell[mesh.index];
             mesh.take_away(&is_gone[mesh.index]);
             mesh.names.push(self.name.to_owned());
             mesh.names.extend(section.name.clone());
             mesh.put(section, self.head, self.placed);
-            if let (Some(picture), Some(coverage)) = (&mut mesh.paint.picture, coverage) {
-                picture.coverage = coverage;
-            }
         }
         Ok(meshes)
     }
@@ -509,6 +443,7 @@ fn of_thing(thing: Thing, section: &MeshSection, number: usize, placed: Placed) 
         index: 0,
         kept: Vec::new(),
         is_turned: false,
+        is_shell: false,
         is_cap: false,
         moving: (thing.moves() && section.beat > 0.0).then(|| {
             Moving::Beating(Beating {
@@ -519,15 +454,4 @@ fn of_thing(thing: Thing, section: &MeshSection, number: usize, placed: Placed) 
         }),
         form: 0,
     }
-}
-
-/// A picture that a preset names.
-pub(crate) fn picture(path: impl AsRef<Path>) -> Result<Arc<Image>, StageError> {
-    let path = path.as_ref();
-    let bytes = hair_io::read_bytes(path, hair_io::MOST_OF_DATA)?;
-    let (image, _) = pictures::decode(&bytes).map_err(|message| StageError::PictureFile {
-        path: path.to_owned(),
-        message,
-    })?;
-    Ok(Arc::new(image))
 }

@@ -66,6 +66,7 @@ pub(super) fn painted(
         index: 0,
         kept: Vec::new(),
         is_turned: false,
+        is_shell: false,
         is_cap: false,
         moving: None,
         form: 0,

@@ -278,6 +278,8 @@ fn painted_mesh(
     };
     let back = match (own.both_sides, section) {
         (true, _) => Some(front),
+        // The character's own outline: what lies around her is seen past her edges alone.
+        (false, None) if mesh.is_shell => None,
         // Seen through openings, as other heads' insides.
         (false, None) => Some(Side::flat(shadow, head.inside_margin_m)),
         (false, Some(_)) => None,
@@ -297,7 +299,7 @@ fn painted_mesh(
     };
     let fill = || part.seen_by(camera).collect();
     let outline = || {
-        if width_m <= 0.0 || !own.has_outline() {
+        if width_m <= 0.0 || mesh.is_shell || !own.has_outline() {
             return None;
         }
         let outline = Part {

@@ -36,12 +36,18 @@ impl Character {
         self
     }
 
+    /// The same with a box around its head that faces inwards.
+    pub fn with_shell(mut self) -> Self {
+        self.add("Shell", [0.0, 1.6, 0.0], [0.084, 0.126, 0.095], 0);
+        let (_, triangles) = self.meshes.last_mut().unwrap();
+        turn_around(triangles);
+        self
+    }
+
     /// The same with its outside where the inside was, as some programs write it.
     pub fn inside_out(mut self) -> Self {
         for (_, triangles) in &mut self.meshes {
-            triangles
-                .chunks_exact_mut(3)
-                .for_each(|corners| corners.swap(1, 2));
+            turn_around(triangles);
         }
         self
     }
@@ -151,6 +157,11 @@ impl Character {
         fs::write(path, file.to_string()).unwrap();
         fs::write(path.with_file_name("a.bin"), bytes).unwrap();
     }
+}
+
+fn turn_around(triangles: &mut [u16]) {
+    let triangles = triangles.chunks_exact_mut(3);
+    triangles.for_each(|corners| corners.swap(1, 2));
 }
 
 pub fn folder(change: impl FnOnce(&mut Value)) -> TempDir {

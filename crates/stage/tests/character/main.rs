@@ -5,3 +5,4 @@ mod hair;
 mod lines;
 mod made;
 mod motion;
+mod paint;
