@@ -166,7 +166,11 @@ pub(crate) fn head(
         HeadColors::Preset => Vec::new(),
         HeadColors::File => {
             let alpha = (None, AlphaChoice::File);
-            painted::of_model(&model, &path, orientation, alpha, &hidden, notes)?
+            let mut painted = painted::of_model(&model, &path, orientation, alpha, &hidden, notes)?;
+            for mesh in &mut painted {
+                mesh.color_triangles(&model);
+            }
+            painted
         }
     };
     let hair_paint = own_hair

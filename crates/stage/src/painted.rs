@@ -2,6 +2,7 @@
 
 mod materials;
 mod shells;
+mod vertex_colors;
 
 pub(crate) use materials::{MeshPaint, MeshPicture, check_picture};
 pub(crate) use shells::{shells, volume};
@@ -33,7 +34,7 @@ pub(crate) struct PaintedMesh {
     pub names: Vec<String>,
     /// Which of the preset's `meshes` it is of; none is the head's own file.
     pub section: Option<usize>,
-    /// Which mesh of its file it is, and which of that mesh's vertices it has where triangles were taken away: empty is all.
+    /// Which mesh of its file it is, and which of that mesh's vertices its own are, where triangles were taken away or have colours of their own: empty is all.
     pub index: usize,
     pub kept: Vec<usize>,
     /// Whether its outside is where its file has the inside: its normals and triangles are turned around.
@@ -323,6 +324,12 @@ impl OfFile<'_> {
                     repeats: true,
                     coverage,
                 });
+            }
+        }
+        if !section.is_sequence() {
+            // Numbered files have one picture in time.
+            for mesh in &mut meshes {
+                mesh.color_triangles(model);
             }
         }
         let is_shell = shells(model, &is_gone);

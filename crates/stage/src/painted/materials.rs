@@ -61,8 +61,14 @@ const VERTEX_COLORS: &str = "color_0";
 /// Colours that differ by no more than this are alike: two steps of 255.
 const ALIKE: f32 = 2.0 / 255.0;
 
+/// The colours of a mesh's vertices, where it has some and is painted so: toon materials (MToon) don't look at them.
+pub(super) fn vertex_colors_of<'m>(mesh: &'m Mesh, paint: &MeshPaint) -> Option<&'m Attribute> {
+    mesh.attribute(VERTEX_COLORS)
+        .filter(|_| paint.shade.is_none())
+}
+
 /// The mean of the colours of vertices, and whether it is the colour of all.
-fn mean_color(colors: &Attribute) -> ([f32; 3], bool) {
+pub(super) fn mean_color(colors: &Attribute) -> ([f32; 3], bool) {
     let all = || colors.values.chunks_exact(colors.width);
     let count = all().len().max(1) as f64;
     let channel = |i: usize| {
@@ -114,17 +120,13 @@ pub(super) fn paint_of(
         None => MeshPaint::NONE,
         Some(material) => of_material(material, !mesh.uvs.is_empty(), chosen, pictures)?,
     };
-    // Toon materials (MToon) don't look at colours of vertices.
-    if let Some(colors) = mesh
-        .attribute(VERTEX_COLORS)
-        .filter(|_| paint.shade.is_none())
-    {
+    if let Some(colors) = vertex_colors_of(mesh, &paint) {
         let (color, are_alike) = mean_color(colors);
         let own = paint.color.unwrap_or([1.0; 3]);
         paint.color = Some([0, 1, 2].map(|i| own[i] * color[i]));
-        if !are_alike {
+        if !are_alike && paint.picture.is_some() {
             pictures.notes.push(format!(
-                "{}: mesh `{}` has colours of its vertices, and is drawn in the mean of them",
+                "{}: mesh `{}` has a picture and colours of its vertices, and is drawn in the mean of these",
                 pictures.path.display(),
                 mesh.name
             ));

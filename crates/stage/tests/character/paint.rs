@@ -1,7 +1,7 @@
 //! How a character's materials paint its meshes.
 
 use crate::made::{Character, scene};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use render::{Coverage, Surface};
 use serde_json::{Value, json};
 use stage::{FrameMaker, Motion, Scene};
@@ -43,26 +43,30 @@ const THREADS: &str = "/materials/1";
 fn painted(texel: [u8; 4], change: impl FnOnce(&mut Value)) -> TempDir {
     let folder = tempfile::tempdir().unwrap();
     Character::new().write(&folder.path().join("girl.gltf"), |file| {
-        attribute(
-            file,
-            folder.path(),
-            "TEXCOORD_0",
-            "VEC2",
-            &[0.5; 2 * VERTICES],
-        );
-        add(file, "images", json!({"uri": "a.png"}));
-        add(file, "textures", json!({"source": 0}));
-        let threads = file.pointer_mut(THREADS).unwrap();
-        threads["pbrMetallicRoughness"] = json!({"baseColorTexture": {"index": 0}});
+        with_picture(file, folder.path());
         change(file);
     });
-    let picture = fs::File::create(folder.path().join("a.png")).unwrap();
+    write_picture(folder.path(), texel);
+    folder
+}
+
+/// Gives bangs and bow a picture.
+fn with_picture(file: &mut Value, folder: &Path) {
+    attribute(file, folder, "TEXCOORD_0", "VEC2", &[0.5; 2 * VERTICES]);
+    add(file, "images", json!({"uri": "a.png"}));
+    add(file, "textures", json!({"source": 0}));
+    let threads = file.pointer_mut(THREADS).unwrap();
+    threads["pbrMetallicRoughness"] = json!({"baseColorTexture": {"index": 0}});
+}
+
+/// Writes that picture, of one texel.
+fn write_picture(folder: &Path, texel: [u8; 4]) {
+    let picture = fs::File::create(folder.join("a.png")).unwrap();
     let mut encoder = png::Encoder::new(picture, 1, 1);
     encoder.set_color(png::ColorType::Rgba);
     let mut writer = encoder.write_header().unwrap();
     writer.write_image_data(&texel).unwrap();
     writer.finish().unwrap();
-    folder
 }
 
 fn surfaces(scene: &Scene) -> Vec<Surface> {
@@ -135,7 +139,7 @@ fn a_colours_alpha_counts_with_its_pictures() {
     }
 }
 
-/// Colours of vertices are the material's, times theirs (3.9.2): where they differ, their mean, which is told.
+/// Colours of vertices are multiplied by the material's (3.9.2).
 #[test]
 fn colours_of_vertices_are_multiplied_in() {
     let with = |colors: &[f32], change: &dyn Fn(&mut Value)| {
@@ -155,23 +159,76 @@ fn colours_of_vertices_are_multiplied_in() {
     let (lights, notes) = with(&[1.0, 0.5, 0.25].repeat(VERTICES), &|_| {});
     assert!(some_are(&lights, [0.1, 0.1, 0.2]), "{lights:?}");
     assert!(!notes.contains("colours of its vertices"), "{notes}");
-    let (lights, notes) = with(
-        &[[1.0; 3], [0.0, 0.5, 1.0]]
-            .as_flattened()
-            .repeat(VERTICES / 2),
-        &|_| {},
-    );
-    assert!(some_are(&lights, [0.05, 0.15, 0.8]), "{lights:?}");
-    assert!(
-        notes.contains("mesh `Bow` has colours of its vertices, and is drawn in the mean of them"),
-        "{notes}"
-    );
     // Toon materials have their own colours.
     let (lights, _) = with(&[1.0, 0.5, 0.25].repeat(VERTICES), &|file| {
         let toon = json!({"VRMC_materials_mtoon": {"shadeColorFactor": [0.1, 0.1, 0.1]}});
         file.pointer_mut(THREADS).unwrap()["extensions"] = toon;
     });
     assert!(some_are(&lights, [0.1, 0.2, 0.8]), "{lights:?}");
+}
+
+/// Where they differ they run from corner to corner.
+#[test]
+fn triangles_have_the_colours_of_their_corners() {
+    // Rows of a box are red, green and blue in turn.
+    let row = |row: usize| [0, 1, 2].map(|i| if i == row % 3 { 1.0 } else { 0.0 });
+    let colors: Vec<f32> = (0..VERTICES).flat_map(|vertex| row(vertex / 4)).collect();
+    let write = |change: &dyn Fn(&mut Value)| {
+        let folder = tempfile::tempdir().unwrap();
+        Character::new().write(&folder.path().join("girl.gltf"), |file| {
+            attribute(file, folder.path(), "COLOR_0", "VEC3", &colors);
+            change(file);
+        });
+        folder
+    };
+    let folder = write(&|_| {});
+    let own = scene(folder.path(), hair(&folder)).unwrap();
+    let mut seen = 0;
+    for surface in surfaces(&own) {
+        let Some(texture) = surface.texture else {
+            continue;
+        };
+        assert_eq!(texture.places.len(), surface.vertices.len());
+        let at = |place: Vec2| {
+            let [red, green, blue, _] = texture.image.at(place.into(), 0.0, texture.repeats);
+            Vec3::new(red, green, blue)
+        };
+        for triangle in &surface.triangles {
+            let places = triangle.map(|corner| texture.places[corner as usize]);
+            let corners = places.map(at);
+            let pure = |color: &Vec3| {
+                (color.max_element() - 1.0).abs() < 1e-3 && color.element_sum() < 1.001
+            };
+            assert!(corners.iter().all(pure), "{corners:?}");
+            // In the middle, and between two corners, there is as much of each.
+            let [a, b, c] = places;
+            let mean = corners.iter().sum::<Vec3>() / 3.0;
+            let middle = at((a + b + c) / 3.0);
+            assert!(middle.distance(mean) < 1e-3, "{middle} {mean}");
+            for (from, to) in [(0, 1), (0, 2), (1, 2)] {
+                let middle = at((places[from] + places[to]) / 2.0);
+                assert!(middle.distance((corners[from] + corners[to]) / 2.0) < 1e-3);
+            }
+            seen += 1;
+        }
+    }
+    assert!(seen > 20, "{seen}");
+    // With a picture beside them they are their mean, and that is told.
+    let folder = tempfile::tempdir().unwrap();
+    Character::new().write(&folder.path().join("girl.gltf"), |file| {
+        attribute(file, folder.path(), "COLOR_0", "VEC3", &colors);
+        with_picture(file, folder.path());
+    });
+    write_picture(folder.path(), [255; 4]);
+    let own = scene(folder.path(), hair(&folder)).unwrap();
+    let notes = own.notes().join("\n");
+    let told =
+        "mesh `Bow` has a picture and colours of its vertices, and is drawn in the mean of these";
+    assert!(notes.contains(told), "{notes}");
+    let third = [1.0 / 3.0; 3];
+    let lights = surfaces(&own).into_iter().map(|surface| surface.light);
+    let mut lights = lights.map(Vec3::from);
+    assert!(lights.any(|light| light.distance(third.into()) < 1e-3));
 }
 
 /// A shell around the head that faces inwards is an outline, as toon models have it: seen past the head's edges, and no part of its shape.
