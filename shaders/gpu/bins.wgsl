@@ -146,6 +146,13 @@ fn fill(tiles: Tiles, item: u32, counter: u32, first: u32, capacity: u32) {
 const SCAN: u32 = 256u;
 var<workgroup> sums: array<u32, SCAN>;
 
+/// No list begins farther on than this: a tile without room looks at all items.
+const FARTHEST: u32 = 0x7fffffffu;
+
+fn entries_with(before: u32, items: u32) -> u32 {
+    return select(before + items, FARTHEST, before > FARTHEST - min(items, FARTHEST));
+}
+
 /// Gives every list its place: those before it have so many entries.
 @compute @workgroup_size(SCAN)
 fn place_lists(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
@@ -157,19 +164,19 @@ fn place_lists(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocatio
     let end = min(first + each, tiles);
     var sum = 0u;
     for (var tile = first; tile < end; tile++) {
-        sum += atomicLoad(&counters[counter + tile]);
+        sum = entries_with(sum, atomicLoad(&counters[counter + tile]));
     }
     sums[local] = sum;
     workgroupBarrier();
     var before = 0u;
     for (var other = 0u; other < local; other++) {
-        before += sums[other];
+        before = entries_with(before, sums[other]);
     }
     for (var tile = first; tile < end; tile++) {
         let items = atomicLoad(&counters[counter + tile]);
         starts[start + tile] = before;
         atomicStore(&counters[counter + tile], before);
-        before += items;
+        before = entries_with(before, items);
     }
     if (local == SCAN - 1u) {
         starts[start + tiles] = before;

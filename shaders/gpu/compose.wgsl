@@ -45,6 +45,11 @@ fn encoded(color: vec3<f32>) -> vec3<f32> {
     return select(high, 12.92 * color, color <= vec3<f32>(0.0031308));
 }
 
+/// Nearer than what a pass without anything is cleared to, by what a depth of 24 bits can tell: all that is drawn, lines over nothing, too, is seen before
+/// that whatever the comparison.
 fn depth_in_pass(inv_depth: f32) -> f32 {
-    return clamp(target_pass.depth.x + target_pass.depth.y * inv_depth, 0.0, 1.0);
+    const LEAST: f32 = 1.0 / 16777216.0;
+    let nearer_is_greater = target_pass.depth.y > 0.0;
+    let ends = select(vec2<f32>(0.0, 1.0 - LEAST), vec2<f32>(LEAST, 1.0), nearer_is_greater);
+    return clamp(target_pass.depth.x + target_pass.depth.y * inv_depth, ends.x, ends.y);
 }

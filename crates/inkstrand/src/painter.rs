@@ -50,7 +50,7 @@ impl Painter {
     pub(crate) fn new(backend: Backend, samples: u32, is_quiet: bool) -> Result<Self, Failure> {
         let card = match backend {
             Backend::Cpu => None,
-            Backend::Gpu => Some(Card::any()?),
+            Backend::Gpu => Some(Card::any(is_quiet)?),
             Backend::Auto => Card::hardware(is_quiet),
         };
         let mut painter = Self {

@@ -24,10 +24,16 @@ impl Card {
     }
 
     /// A graphics card, or a driver that draws in software where there is none.
-    pub fn any() -> Result<Self, Failure> {
-        Offscreen::open(AdapterKind::Any)
-            .map(Self::on)
-            .map_err(explained)
+    pub fn any(is_quiet: bool) -> Result<Self, Failure> {
+        let offscreen = Offscreen::open(AdapterKind::Any).map_err(explained)?;
+        if offscreen.is_software() && !is_quiet {
+            say(format_args!(
+                "WARNING: there is no graphics card: {} runs its programs on the CPU, slowly, and may break them off where hair is dense, which spoils \
+                 parts of the picture; --backend cpu draws it faster, and whole",
+                offscreen.info().name
+            ));
+        }
+        Ok(Self::on(offscreen))
     }
 
     /// A graphics card, where there is one that can draw.

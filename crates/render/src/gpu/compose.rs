@@ -226,10 +226,20 @@ impl Composer {
 }
 
 fn holds_linear_light(format: wgpu::TextureFormat) -> bool {
-    use wgpu::TextureFormat::{Rg11b10Ufloat, Rgb9e5Ufloat, Rgba16Float, Rgba32Float};
+    use wgpu::TextureFormat::{
+        R16Float, R32Float, Rg11b10Ufloat, Rg16Float, Rg32Float, Rgb9e5Ufloat, Rgba16Float,
+        Rgba32Float,
+    };
     let is_float = matches!(
         format,
-        Rg11b10Ufloat | Rgb9e5Ufloat | Rgba16Float | Rgba32Float
+        R16Float
+            | R32Float
+            | Rg11b10Ufloat
+            | Rg16Float
+            | Rg32Float
+            | Rgb9e5Ufloat
+            | Rgba16Float
+            | Rgba32Float
     );
     format.is_srgb() || is_float
 }

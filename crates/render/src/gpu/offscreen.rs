@@ -47,6 +47,13 @@ impl Offscreen {
         &self.gpu.info
     }
 
+    /// Whether there is no graphics card, but a driver that runs its programs on the CPU. Such drivers break off loops that go on for too long, which spoils
+    /// tiles where hair is dense.
+    #[must_use]
+    pub fn is_software(&self) -> bool {
+        self.info().device_type == wgpu::DeviceType::Cpu
+    }
+
     /// What the renderer has, and what the last frame took.
     #[must_use]
     pub fn stats(&self) -> GpuStats {

@@ -101,14 +101,24 @@ pub(super) struct Layouts {
     pub(super) strokes: BindGroupLayout,
     pub(super) smooth: BindGroupLayout,
     pub(super) bins: BindGroupLayout,
-    /// By what they tell, and whether there are pictures.
-    tiles: [[BindGroupLayout; 2]; 3],
+    /// By what they tell, and whether there are pictures; none of what the device has too few textures for.
+    tiles: Vec<[BindGroupLayout; 2]>,
 }
 
 impl Layouts {
     /// What the pipeline that draws tiles binds.
-    pub(super) fn tiles(&self, tells: Tells, pictures: bool) -> &BindGroupLayout {
-        &self.tiles[tells as usize][usize::from(pictures)]
+    ///
+    /// # Errors
+    ///
+    /// Where the device has too few textures.
+    pub(super) fn tiles(&self, tells: Tells, pictures: bool) -> Result<&BindGroupLayout, GpuError> {
+        let layouts = self.tiles.get(tells.textures());
+        let layout = layouts.map(|layouts| &layouts[usize::from(pictures)]);
+        layout.ok_or(GpuError::Limit {
+            what: "storage textures in a shader",
+            has: self.tiles.len() as u64 - 1,
+            needs: tells.textures() as u64,
+        })
     }
 }
 
@@ -121,9 +131,15 @@ impl Programs {
             strokes: of("strokes", pipelines::STROKES),
             smooth: of("smooth", pipelines::SMOOTH),
             bins: of("bins", pipelines::BINS),
-            tiles: Tells::ALL.map(|tells| {
-                [false, true].map(|pictures| of("tiles", &tiles_bindings(tells, pictures)))
-            }),
+            tiles: (Tells::ALL.into_iter())
+                .filter(|tells| {
+                    let most = device.limits().max_storage_textures_per_shader_stage;
+                    tells.textures() <= most as usize
+                })
+                .map(|tells| {
+                    [false, true].map(|pictures| of("tiles", &tiles_bindings(tells, pictures)))
+                })
+                .collect(),
         };
         let entry_points = [
             "count_chunks",
@@ -229,7 +245,7 @@ impl Programs {
             return Ok(0);
         }
         let text = program::tiles(key);
-        let layout = self.layouts.tiles(key.tells, key.has_pictures());
+        let layout = self.layouts.tiles(key.tells, key.has_pictures())?;
         let made = pipelines(device, "tiles", &text, layout, &["draw_tile"])?;
         let made = made.into_iter().next();
         self.tiles = made.map(|pipeline| (key, pipeline));

@@ -291,13 +291,12 @@ impl Renderer {
             Source::Frame(frame) => (&frame.surfaces, !frame.decals.is_empty()),
             Source::Drawing(drawing) => (&drawing.surfaces, !drawing.decals.is_empty()),
         };
-        if self
-            .atlas
-            .follow(&self.device, &self.queue, surfaces, &self.scene.brushwork)?
-        {
-            self.groups = None;
-            self.stats.made += 1;
-        }
+        // Should something not fit, what was bound is of buffers and pictures that are gone.
+        let groups = self.groups.take();
+        let (device, queue) = (&self.device, &self.queue);
+        let has_other_pictures =
+            (self.atlas).follow(device, queue, surfaces, &self.scene.brushwork)?;
+        self.stats.made += usize::from(has_other_pictures);
         let tells = self.tells();
         let key = TilesKey {
             order,
@@ -328,9 +327,11 @@ impl Renderer {
             writes_samples: u32::from(has_samples),
             ..settings
         };
-        self.write_buffers(&settings, &places, tile_count, values * 16)?;
-        let is_new = self.groups.is_none();
-        let groups = match self.groups.take() {
+        let made = self.write_buffers(&settings, &places, tile_count, values * 16)?;
+        self.stats.made += made;
+        let groups = groups.filter(|_| !has_other_pictures && made == 0);
+        let is_new = groups.is_none();
+        let groups = match groups {
             Some(groups) => groups,
             None => self.make_groups()?,
         };
@@ -422,13 +423,14 @@ impl Renderer {
         Ok(())
     }
 
+    /// Writes and reserves all that a frame needs; says how many buffers are others than before.
     fn write_buffers(
         &mut self,
         settings: &GpuFrame,
         places: &[glam::Vec2],
         tile_count: u64,
         picture_bytes: u64,
-    ) -> Result<(), GpuError> {
+    ) -> Result<usize, GpuError> {
         let Self {
             device,
             queue,
@@ -466,7 +468,8 @@ impl Renderer {
         if scene.layers.iter().any(|layer| layer.is_smoothed) {
             note(buffers.windows.reserve(device, windows * 8)?);
         }
-        let joints = scene.discs.min(scene.joints.len()) as u64;
+        let frame: &GpuFrame = bytemuck::from_bytes(bytemuck::cast_slice(settings));
+        let joints = u64::from(frame.joints);
         note(buffers.clumps.reserve(device, joints * CLUMP_BYTES)?);
         if scene.disc_words.is_empty() {
             note(buffers.discs.reserve(device, scene.disc_bytes())?);
@@ -480,16 +483,11 @@ impl Renderer {
                 .reserve(device, (tile_count * 2 + chunks) * 4)?,
         );
         note(buffers.starts.reserve(device, (tile_count + 1) * 2 * 4)?);
-        let frame: &GpuFrame = bytemuck::from_bytes(bytemuck::cast_slice(settings));
         // A chunk's entry has a second word.
         let entries = 2 * u64::from(frame.chunk_capacity) + u64::from(frame.triangle_capacity);
         note(buffers.entries.reserve(device, entries * 4)?);
         note(buffers.picture.reserve(device, picture_bytes)?);
-        if made > 0 {
-            self.groups = None;
-            self.stats.made += made;
-        }
-        Ok(())
+        Ok(made)
     }
 
     fn make_groups(&self) -> Result<Groups, GpuError> {
@@ -536,7 +534,7 @@ impl Renderer {
         let told = told.unwrap_or_default();
         let textures = told.iter().chain(self.atlas.view());
         tiles.extend(textures.map(wgpu::BindingResource::TextureView));
-        let tiles_layout = layouts.tiles(self.tells(), self.atlas.view().is_some());
+        let tiles_layout = layouts.tiles(self.tells(), self.atlas.view().is_some())?;
         Ok(Groups {
             clumps: clumps.collect::<Result<_, GpuError>>()?,
             layers: layers.collect::<Result<_, GpuError>>()?,
@@ -647,7 +645,6 @@ impl Renderer {
 
     /// Waits for the report of a frame that was submitted, and takes it in.
     pub(super) fn wait_for_report(&mut self) -> Result<(), GpuError> {
-        self.report.map();
         self.device
             .poll(wgpu::PollType::wait_indefinitely())
             .map_err(|error| GpuError::Lost(error.to_string()))?;

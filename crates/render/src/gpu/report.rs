@@ -23,12 +23,27 @@ struct Times {
     nanoseconds: f32,
 }
 
-/// States of the report's buffer: free for a frame; written by one; being mapped; mapped; not to be mapped.
+/// States of the report's buffer: free for a frame; recorded for one, to be mapped once that is through; mapped.
 const FREE: u8 = 0;
-const WRITTEN: u8 = 1;
-const MAPPING: u8 = 2;
-const MAPPED: u8 = 3;
-const FAILED: u8 = 4;
+const RECORDED: u8 = 1;
+const MAPPED: u8 = 2;
+
+/// A report that is recorded. Where its commands are dropped without being submitted, it is free again.
+struct Recorded(Option<Arc<AtomicU8>>);
+
+impl Recorded {
+    fn end_in(&mut self, state: u8) {
+        if let Some(own) = self.0.take() {
+            own.store(state, Ordering::Release);
+        }
+    }
+}
+
+impl Drop for Recorded {
+    fn drop(&mut self) {
+        self.end_in(FREE);
+    }
+}
 
 impl Report {
     pub(super) fn new(device: &Device, queue: &Queue) -> Self {
@@ -86,7 +101,8 @@ impl Report {
         })
     }
 
-    /// Records the report of a frame, unless one is still to be read.
+    /// Records the report of a frame, unless one is still to be read. It is mapped when these commands are through, whenever and in whatever order they
+    /// are submitted.
     pub(super) fn record(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -104,31 +120,18 @@ impl Report {
             let to = &self.read_back;
             encoder.copy_buffer_to_buffer(&times.resolved, 0, to, TOTALS_BYTES, TIMES_BYTES);
         }
-        self.set_state(WRITTEN);
-    }
-
-    /// Asks for a report that was written.
-    pub(super) fn map(&self) {
-        if self.state() != WRITTEN {
-            return;
-        }
-        self.set_state(MAPPING);
-        let state = Arc::clone(&self.state);
-        self.read_back
-            .map_async(wgpu::MapMode::Read, .., move |result| {
-                let next = if result.is_ok() { MAPPED } else { FAILED };
-                state.store(next, Ordering::Release);
-            });
+        self.set_state(RECORDED);
+        let mut recorded = Recorded(Some(Arc::clone(&self.state)));
+        let read = wgpu::MapMode::Read;
+        encoder.map_buffer_on_submit(&self.read_back, read, .., move |result| {
+            recorded.end_in(if result.is_ok() { MAPPED } else { FREE });
+        });
     }
 
     /// The entries that the tiles' lists needed, and the stages' milliseconds, where they are there.
     pub(super) fn read(&self, device: &Device) -> Option<([u32; 2], Option<[f64; 3]>)> {
-        self.map();
         // Never waits. A device that is lost says so elsewhere.
         let _ = device.poll(wgpu::PollType::Poll);
-        if self.state() == FAILED {
-            self.set_state(FREE);
-        }
         if self.state() != MAPPED {
             return None;
         }

@@ -42,6 +42,7 @@ pub(super) struct SampleStage {
     shown: Shown,
     /// Surfaces that hair hides; of one texel where none is seen through it.
     under: Shown,
+    keeps_under: bool,
     paints: Vec<Paint>,
     /// Those of meshes, with the words of each layer.
     mesh_paints: Vec<Paint>,
@@ -95,6 +96,7 @@ impl SampleStage {
         Ok(Self {
             shown: Shown::new(device, shown_size(wanted))?,
             under: Shown::new(device, under_size(wanted))?,
+            keeps_under: wanted.under,
             paints: Vec::new(),
             mesh_paints: Vec::new(),
             mesh_layers: Vec::new(),
@@ -125,6 +127,7 @@ impl SampleStage {
         wanted: Wanted,
     ) -> Result<usize, GpuError> {
         let mut made = 0;
+        self.keeps_under = wanted.under;
         let sizes = [shown_size(wanted), under_size(wanted)];
         for (texture, size) in [&mut self.shown, &mut self.under].into_iter().zip(sizes) {
             if texture.size != size {
@@ -327,9 +330,9 @@ impl SampleStage {
 
     /// What tiles keep.
     pub(super) fn tells(&self) -> Tells {
-        match self.under.size == NO_UNDER {
-            true => Tells::Shown,
-            false => Tells::Under,
+        match self.keeps_under {
+            true => Tells::Under,
+            false => Tells::Shown,
         }
     }
 

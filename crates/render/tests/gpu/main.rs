@@ -12,5 +12,6 @@ mod meshes;
 mod prelude;
 mod samples;
 mod scene;
+mod small_device;
 mod textures;
 mod warm;
