@@ -10,7 +10,7 @@ use std::convert::Infallible;
 pub(super) enum Card {}
 
 impl Card {
-    pub fn any() -> Result<Self, Failure> {
+    pub fn any(_is_quiet: bool) -> Result<Self, Failure> {
         Err(Failure::Failed(
             "this program was built without graphics cards, which are its feature `gpu`\n\
              --backend cpu draws without one"
