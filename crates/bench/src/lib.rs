@@ -5,6 +5,7 @@ pub mod backends;
 pub mod cartoon;
 pub mod character;
 pub mod coherence;
+pub mod compare;
 pub mod dynamics;
 mod error;
 pub mod frame;

@@ -13,8 +13,8 @@ use bench::page::{self, Finished};
 use bench::results::Row;
 use bench::targets::{Target, report};
 use bench::{
-    cartoon, character, coherence, frame, lines, ratios, rest, results, scale, skip, stress,
-    strokes,
+    cartoon, character, coherence, compare, frame, lines, ratios, rest, results, scale, skip,
+    stress, strokes,
 };
 use clap::{Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -55,6 +55,8 @@ enum Suite {
     Skip(RatioOptions),
     /// Rest: whether hair of looks comes back, and to rest, after turns and shakes of the head
     Rest(Options),
+    /// Two builds of inkstrand against each other: what frames of looks take, in turns, and whether their pictures are the same
+    Compare(CompareOptions),
     /// No measure: random scenes with hostile numbers, in which strands must hold
     Stress(StressOptions),
     /// No measure: writes the character of suite frame, and presets with it and without, for `cargo xtask bench count --release`
@@ -66,6 +68,25 @@ struct CharacterOptions {
     /// Folder of the files
     #[arg(value_name = "DIR")]
     folder: PathBuf,
+}
+
+#[derive(clap::Args)]
+struct CompareOptions {
+    /// The program that the other one's times are divided by
+    #[arg(value_name = "PROGRAM")]
+    first: PathBuf,
+    /// The other one
+    #[arg(value_name = "OTHER")]
+    second: PathBuf,
+    /// Looks by their names [default: all]
+    #[arg(value_name = "LOOK")]
+    looks: Vec<String>,
+    /// How often each draws each look
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    rounds: u16,
+    /// Threads of the programs
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: u16,
 }
 
 #[derive(clap::Args)]
@@ -186,6 +207,7 @@ fn main() -> ExitCode {
         Suite::Character(options) => character::write_presets(&root(), &options.folder)
             .map(|()| ExitCode::SUCCESS)
             .map_err(|error| format!("{}: {error}", options.folder.display()).into()),
+        Suite::Compare(options) => compare(options),
         Suite::All(options) => all(options),
         Suite::Strokes(options) => strokes(options).map(|it| exit_code(&it, options.common.check)),
         Suite::Dynamics(options) => {
@@ -566,6 +588,19 @@ fn rest(options: &Options) -> Result<Finished, BenchError> {
         Vec::new(),
         measured.targets,
     ))
+}
+
+fn compare(options: &CompareOptions) -> Result<ExitCode, BenchError> {
+    let compared = compare::Options {
+        root: root(),
+        programs: [options.first.clone(), options.second.clone()],
+        looks: options.looks.clone(),
+        rounds: options.rounds.into(),
+        threads: options.threads.into(),
+    };
+    let table = with_progress(|progress| compare::run(&compared, progress))?;
+    println!("{table}");
+    Ok(ExitCode::SUCCESS)
 }
 
 /// Failures are told at once, each with the command that runs its scene again.
