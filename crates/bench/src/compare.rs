@@ -1,5 +1,5 @@
 //! Two builds of inkstrand against each other: what the frames of looks take, stage by stage, in turns, so that whatever else the machine does meets both
-//! alike; and whether their pictures are the same.
+//! alike; and whether the files of their pictures are the same.
 
 use crate::BenchError;
 use crate::frame::{LOOKS, presets};
@@ -38,7 +38,7 @@ pub struct Options {
 /// Milliseconds of each frame and stage, the least that was found.
 type Times = BTreeMap<(u64, &'static str), f64>;
 
-/// Draws the looks in turns; a table of each stage's time by the second program over that by the first, and whether pictures are the same.
+/// Draws the looks in turns; a table of each stage's time by the second program over that by the first, and whether all files of their pictures are the same.
 ///
 /// # Errors
 ///
@@ -50,7 +50,7 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<String, BenchErr
     for stage in STAGES {
         let _ = write!(table, " {stage:>9}");
     }
-    table += "  pictures\n";
+    table += "  files\n";
     for (name, path) in &looks {
         progress.set_message(name.clone());
         let mut best = [Times::new(), Times::new()];
@@ -94,7 +94,7 @@ fn looks(options: &Options) -> Result<Vec<(String, PathBuf)>, BenchError> {
     Ok(all.into_iter().filter(is_meant).collect())
 }
 
-/// Has a program draw a look; takes in its times where they are less. The last frame's file.
+/// Has a program draw a look; takes in its times where they are less. The pictures' files, one after the other.
 fn draw(
     program: &Path,
     look: &Path,
@@ -141,8 +141,9 @@ fn draw_in(
     }
     let text = fs::read_to_string(&stats).map_err(|error| said(error.to_string()))?;
     take_in(&text, best).map_err(said)?;
-    let last = folder.join(format!("{LAST:04}.png"));
-    fs::read(last).map_err(|error| said(error.to_string()))
+    let files = (0..=LAST).map(|frame| fs::read(folder.join(format!("{frame:04}.png"))));
+    let files = files.collect::<Result<Vec<_>, _>>();
+    Ok(files.map_err(|error| said(error.to_string()))?.concat())
 }
 
 /// Takes in the times of statistics, a line a frame, where they are less than what was found.
@@ -176,7 +177,11 @@ fn ratios(best: &[Times; 2]) -> String {
             own.map(|(_, time)| time).sum::<f64>()
         };
         let [first, second] = [sum(&best[0]), sum(&best[1])];
-        let _ = write!(text, " {:9.3}", second / first);
+        // Frames in which nothing moves are not drawn.
+        let _ = match first > 0.0 {
+            true => write!(text, " {:9.3}", second / first),
+            false => write!(text, " {:>9}", "-"),
+        };
     }
     text
 }
@@ -209,6 +214,11 @@ mod tests {
             ratios(&best).split_whitespace().collect::<Vec<_>>(),
             ["1.000", "2.000", "1.000", "0.500", "2.000"]
         );
+        let mut none = [Times::new(), Times::new()];
+        for times in &mut none {
+            take_in(&line(2, [0.0, 0.0, 0.0, 0.0, 1.0]), times).unwrap();
+        }
+        assert!(ratios(&none).ends_with("-     1.000"), "{}", ratios(&none));
     }
 
     #[test]

@@ -55,7 +55,7 @@ enum Suite {
     Skip(RatioOptions),
     /// Rest: whether hair of looks comes back, and to rest, after turns and shakes of the head
     Rest(Options),
-    /// Two builds of inkstrand against each other: what frames of looks take, in turns, and whether their pictures are the same
+    /// Two builds of inkstrand against each other: what frames of looks take, in turns, and whether the files of their pictures are the same
     Compare(CompareOptions),
     /// No measure: random scenes with hostile numbers, in which strands must hold
     Stress(StressOptions),

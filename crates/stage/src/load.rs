@@ -7,10 +7,10 @@ use crate::lids::lids;
 use crate::meant::meant;
 use crate::mesh_hair;
 use crate::names::Names;
-use crate::painted::{self, PaintedMesh, shells, volume};
+use crate::painted::{self, PaintedMesh, shells};
 use crate::preset::{
-    AlphaChoice, BlushChoice, DressChoice, ExpressionChoice, EyesChoice, HairFrom, HairSection,
-    HeadColors, HeadSection, HeadShape, Preset, UpAxis,
+    BlushChoice, DressChoice, ExpressionChoice, EyesChoice, HairFrom, HairSection, HeadColors,
+    HeadSection, HeadShape, Preset, UpAxis,
 };
 use crate::skeleton::Skeleton;
 use crate::style;
@@ -124,21 +124,29 @@ pub(crate) fn head(
     if section.colors == HeadColors::File {
         painted::hide_clear(&model, &path, &mut hidden, notes);
     }
+    // What lies around her is drawn, and no part of her shape.
+    let is_shell = shells(&model, &hidden);
+    let mut no_shape = hidden.clone();
+    for (index, no_shape) in no_shape
+        .iter_mut()
+        .enumerate()
+        .filter(|(i, _)| is_shell[*i])
+    {
+        no_shape.fill(true);
+        notes.push(format!(
+            "{}: mesh `{}` faces inwards around others: an outline of the file's own, seen past their edges alone",
+            path.display(),
+            model.meshes[index].name
+        ));
+    }
     let own_hair = match wants_own_hair(preset, files) {
-        true => mesh_hair::find(&model, &path, orientation, &preset.sections.hair, &hidden)?,
+        true => mesh_hair::find(&model, &path, orientation, &preset.sections.hair, &no_shape)?,
         false => None,
     };
-    let mut is_gone = match &own_hair {
-        Some(own) => either(&hidden, &own.is_hair),
-        None => hidden.clone(),
+    let is_gone = match &own_hair {
+        Some(own) => either(&no_shape, &own.is_hair),
+        None => no_shape.clone(),
     };
-    // What lies around her is drawn, and no part of her shape.
-    let is_shell = shells(&model, &is_gone);
-    for (is_gone, is_shell) in is_gone.iter_mut().zip(&is_shell) {
-        if *is_shell {
-            is_gone.fill(true);
-        }
-    }
     if own_hair.is_none() && preset.sections.hair.from == HairFrom::Character && lacks_head(&model)
     {
         notes.push(format!(
@@ -148,7 +156,7 @@ pub(crate) fn head(
         ));
     }
     let frame = match &own_hair {
-        Some(_) => without_kept(&model, &path, orientation, &preset.sections.hair, &hidden),
+        Some(_) => without_kept(&model, &path, orientation, &preset.sections.hair, &no_shape),
         None => None,
     };
     let mut mesh = match is_gone.iter().flatten().any(|gone| *gone) {
@@ -165,8 +173,8 @@ pub(crate) fn head(
     let mut painted = match section.colors {
         HeadColors::Preset => Vec::new(),
         HeadColors::File => {
-            let alpha = (None, AlphaChoice::File);
-            let mut painted = painted::of_model(&model, &path, orientation, alpha, &hidden, notes)?;
+            let file = painted::Wanted::OF_FILE;
+            let mut painted = painted::of_model(&model, &path, orientation, &file, &hidden, notes)?;
             for mesh in &mut painted {
                 mesh.color_triangles(&model);
             }
@@ -419,9 +427,18 @@ fn figure(section: &HeadSection) -> Figure {
     }
 }
 
-/// Whether most of a mesh faces inwards.
+/// Whether most of a mesh faces inwards: its signed volume, seen from its middle, is below 0.
 fn is_inside_out(mesh: &Mesh) -> bool {
-    volume(&mesh.positions, &mesh.triangles) < 0.0
+    let middle = mesh.positions.iter().sum::<Vec3>() / mesh.positions.len().max(1) as f32;
+    let volume: f64 = mesh
+        .triangles
+        .iter()
+        .map(|triangle| {
+            let [a, b, c] = triangle.map(|i| (mesh.positions[i as usize] - middle).as_dvec3());
+            a.dot(b.cross(c))
+        })
+        .sum();
+    volume < 0.0
 }
 
 /// All strands of the hair, sorted by id.

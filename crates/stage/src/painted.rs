@@ -5,7 +5,7 @@ mod shells;
 mod vertex_colors;
 
 pub(crate) use materials::{MeshPaint, MeshPicture, check_picture};
-pub(crate) use shells::{shells, volume};
+pub(crate) use shells::shells;
 
 use crate::files::StageError;
 use crate::meant::meant;
@@ -39,7 +39,7 @@ pub(crate) struct PaintedMesh {
     pub kept: Vec<usize>,
     /// Whether its outside is where its file has the inside: its normals and triangles are turned around.
     pub is_turned: bool,
-    /// Whether its triangles face what they lie around, and are seen from that side alone: the shell that toon models have as their outline.
+    /// Whether it is a shell around others ([`shells`]): toon models have them as their outlines.
     pub is_shell: bool,
     /// Whether hair lies on it, and covers it where it is a little deeper.
     pub is_cap: bool,
@@ -152,14 +152,22 @@ pub(crate) fn hide_clear(
     if model.rig.is_none() {
         return; // in other formats such an alpha is more often a mistake
     }
+    let clear = |index: usize| {
+        let material = model.meshes[index].material;
+        let material = material.and_then(|index| model.materials.get(index));
+        material.filter(|own| is_clear(own))
+    };
+    let all: Vec<usize> = shown(is_gone).collect();
+    if !all.is_empty() && all.iter().all(|index| clear(*index).is_some()) {
+        notes.push(format!(
+            "{}: all of its materials are clear by their alpha, and are drawn as if they weren't",
+            path.display()
+        ));
+        return;
+    }
     let mut hidden: Vec<&str> = Vec::new();
-    for (mesh, is_gone) in model.meshes.iter().zip(is_gone) {
-        let material = mesh.material.and_then(|index| model.materials.get(index));
-        let Some(material) = material.filter(|own| is_clear(own) && is_gone.contains(&false))
-        else {
-            continue;
-        };
-        is_gone.fill(true);
+    for (index, material) in all.into_iter().filter_map(|i| Some((i, clear(i)?))) {
+        is_gone[index].fill(true);
         if !hidden.contains(&material.name.as_str()) {
             hidden.push(&material.name);
         }
@@ -173,13 +181,31 @@ pub(crate) fn hide_clear(
     }
 }
 
+/// What a preset says of the meshes of a file.
+pub(crate) struct Wanted {
+    /// Which of its `meshes` that is; none is the head's own file.
+    section: Option<usize>,
+    /// What is clear in their pictures.
+    alpha: AlphaChoice,
+    /// Whether it has a picture for them.
+    has_picture: bool,
+}
+
+impl Wanted {
+    /// All as the file has it.
+    pub(crate) const OF_FILE: Self = Self {
+        section: None,
+        alpha: AlphaChoice::File,
+        has_picture: false,
+    };
+}
+
 /// The meshes of a model of which anything is left, whole, as they lie in our space: `is_gone` tells of each mesh and each of its triangles whether it is not.
-/// What is clear in their pictures is as `alpha` has it.
 pub(crate) fn of_model(
     model: &Model,
     path: &Path,
     orientation: &Orientation,
-    (section, alpha): (Option<usize>, AlphaChoice),
+    wanted: &Wanted,
     is_gone: &[Vec<bool>],
     notes: &mut Vec<String>,
 ) -> Result<Vec<PaintedMesh>, StageError> {
@@ -188,7 +214,7 @@ pub(crate) fn of_model(
     for index in shown(is_gone) {
         let mesh = &model.meshes[index];
         let material = mesh.material.and_then(|index| model.materials.get(index));
-        let paint = paint_of(mesh, material, alpha, &mut pictures)?;
+        let paint = paint_of(mesh, material, wanted, &mut pictures)?;
         let positions = mesh.positions.iter().map(|p| orientation.apply(*p));
         let normals = mesh.normals.iter().map(|n| orientation.up.to_y_up(*n));
         painted.push(PaintedMesh {
@@ -201,7 +227,7 @@ pub(crate) fn of_model(
             },
             paint,
             names: names_of(model, mesh).map(str::to_owned).collect(),
-            section,
+            section: wanted.section,
             index,
             kept: Vec::new(),
             is_turned: false,
@@ -300,12 +326,17 @@ impl OfFile<'_> {
             triangles.for_each(|(is_gone, wanted)| *is_gone |= !wanted);
         }
         let picture_path = section.texture_path(self.folder);
-        if section.alpha == AlphaChoice::File && picture_path.is_none() {
+        let is_as_in_file = section.alpha == AlphaChoice::File && picture_path.is_none();
+        // Of numbered files all have the same meshes, whatever fades.
+        if is_as_in_file && !section.is_sequence() {
             hide_clear(model, path, &mut is_gone, notes);
         }
-        let (orientation, number) = (self.orientation, Some(self.number));
-        let of_section = (number, section.alpha);
-        let mut meshes = of_model(model, path, orientation, of_section, &is_gone, notes)?;
+        let wanted = Wanted {
+            section: Some(self.number),
+            alpha: section.alpha,
+            has_picture: picture_path.is_some(),
+        };
+        let mut meshes = of_model(model, path, self.orientation, &wanted, &is_gone, notes)?;
         if let Some(picture_path) = picture_path {
             let coverage = match section.alpha {
                 AlphaChoice::Whole => Coverage::Ignored,
@@ -326,7 +357,7 @@ impl OfFile<'_> {
                 });
             }
         }
-        if !section.is_sequence() {
+        if !(section.is_sequence() || wanted.has_picture) {
             // Numbered files have one picture in time.
             for mesh in &mut meshes {
                 mesh.color_triangles(model);

@@ -95,6 +95,13 @@ impl Image {
         Self { levels }
     }
 
+    /// The same without its smaller copies: however small it is on the screen, each place has its own texels.
+    #[must_use]
+    pub fn without_copies(mut self) -> Self {
+        self.levels.truncate(1);
+        self
+    }
+
     /// Width and height in texels.
     #[must_use]
     pub fn size(&self) -> [usize; 2] {
@@ -515,6 +522,19 @@ mod tests {
                     .iter()
                     .all(|x| x.is_finite())
             );
+        }
+    }
+
+    #[test]
+    fn without_copies_nothing_is_blurred() {
+        let texels = [[0, 0, 0, 65535], [65535; 4]].repeat(8);
+        let image = image([4, 4], &texels);
+        let at = |image: &Image, size: f32| image.at([0.375, 0.5], size, false);
+        assert_ne!(at(&image, 1.0), at(&image, 0.0));
+        let sharp = image.clone().without_copies();
+        assert_eq!((sharp.levels(), sharp.size()), (1, [4, 4]));
+        for size in [0.0, 0.3, 1.0, 100.0] {
+            assert_eq!(at(&sharp, size), at(&image, 0.0));
         }
     }
 

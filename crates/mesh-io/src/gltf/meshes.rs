@@ -178,6 +178,9 @@ impl Reader<'_> {
             Some(accessor) => buffers.indices(accessor)?,
             None => (0..count).collect(),
         };
+        if corners.len() < 3 {
+            return Ok(None);
+        }
         let morphs = self.morphs(count, buffers)?;
         let triangles = triangles(mode, &corners, &positions, &morphs)?;
         if triangles.is_empty() {

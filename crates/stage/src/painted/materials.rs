@@ -1,5 +1,6 @@
 //! How meshes are painted: by the materials and pictures of their files, and by pictures that presets name.
 
+use super::Wanted;
 use crate::files::StageError;
 use crate::pictures::{self, Clear};
 use crate::preset::AlphaChoice;
@@ -113,14 +114,16 @@ pub(super) fn clear_of(coverage: Coverage, alpha: f32) -> Clear {
 pub(super) fn paint_of(
     mesh: &Mesh,
     material: Option<&Material>,
-    chosen: AlphaChoice,
+    wanted: &Wanted,
     pictures: &mut Pictures,
 ) -> Result<MeshPaint, StageError> {
     let mut paint = match material {
         None => MeshPaint::NONE,
-        Some(material) => of_material(material, !mesh.uvs.is_empty(), chosen, pictures)?,
+        Some(material) => of_material(material, !mesh.uvs.is_empty(), wanted.alpha, pictures)?,
     };
-    if let Some(colors) = vertex_colors_of(mesh, &paint) {
+    // A picture of the preset's own takes the place of all that the file paints with.
+    let colors = vertex_colors_of(mesh, &paint).filter(|_| !wanted.has_picture);
+    if let Some(colors) = colors {
         let (color, are_alike) = mean_color(colors);
         let own = paint.color.unwrap_or([1.0; 3]);
         paint.color = Some([0, 1, 2].map(|i| own[i] * color[i]));
@@ -147,7 +150,10 @@ fn of_material(
     let picture = match texture {
         None => None,
         Some(texture) => {
-            let image = pictures.get(texture.image, clear_of(coverage, alpha))?;
+            // Other formats' alphas are more often mistakes, and what is to be drawn all the same isn't clear.
+            let counts = pictures.model.rig.is_some() && material.alpha != Alpha::Opaque;
+            let share = if counts && alpha > 0.0 { alpha } else { 1.0 };
+            let image = pictures.get(texture.image, clear_of(coverage, share))?;
             image.map(|image| MeshPicture {
                 image,
                 repeats: texture.wrap != [Wrap::Clamp; 2],

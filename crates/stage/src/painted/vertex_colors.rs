@@ -10,9 +10,6 @@ use render::Coverage;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Blocks of two by two texels in a row of the picture.
-const ROW: usize = 128;
-
 /// The colours of a triangle's corners, in sRGB.
 type Corners = [[u16; 3]; 3];
 
@@ -72,7 +69,9 @@ struct Block {
 
 /// The colours of a mesh's triangles.
 struct Palette {
+    /// Of blocks of two by two texels, so many in a row.
     image: Image,
+    row: usize,
     blocks: Vec<Block>,
 }
 
@@ -94,24 +93,34 @@ impl Palette {
             Block { number, first }
         });
         let blocks = blocks.collect();
-        let rows = numbers.len().div_ceil(ROW);
-        let mut rgba = vec![[u16::MAX; 4]; 4 * ROW * rows];
+        // Nearly square: it has room for some millions of triangles.
+        let row = (numbers.len() as f64).sqrt().ceil() as usize;
+        let size = [2 * row, 2 * numbers.len().div_ceil(row.max(1))];
+        if size.iter().any(|side| *side > Image::MOST_TEXELS) {
+            return None;
+        }
+        let mut rgba = vec![[u16::MAX; 4]; size[0] * size[1]];
         for ([a, b, c], block) in numbers {
             for (k, [red, green, blue]) in [a, b, c, across([a, b, c])].into_iter().enumerate() {
-                let (x, y) = (2 * (block % ROW) + k % 2, 2 * (block / ROW) + k / 2);
-                rgba[y * 2 * ROW + x] = [red, green, blue, u16::MAX];
+                let (x, y) = (2 * (block % row) + k % 2, 2 * (block / row) + k / 2);
+                rgba[y * size[0] + x] = [red, green, blue, u16::MAX];
             }
         }
-        let image = Image::from_srgb([2 * ROW, 2 * rows], rgba.as_flattened()).ok()?;
-        Some(Self { image, blocks })
+        let image = Image::from_srgb(size, rgba.as_flattened()).ok()?;
+        // Smaller copies would mix triangles that have nothing to do with each other.
+        Some(Self {
+            image: image.without_copies(),
+            row,
+            blocks,
+        })
     }
 
     /// The texel of a triangle's corner.
     fn texel(&self, block: Block, corner: usize) -> [usize; 2] {
         let k = block.first.map_or(0, |first| (corner + 3 - first) % 3);
         [
-            2 * (block.number % ROW) + k % 2,
-            2 * (block.number / ROW) + k / 2,
+            2 * (block.number % self.row) + k % 2,
+            2 * (block.number / self.row) + k / 2,
         ]
     }
 }

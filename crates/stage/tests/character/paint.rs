@@ -139,6 +139,26 @@ fn a_colours_alpha_counts_with_its_pictures() {
     }
 }
 
+/// Where all would be gone, by a fault of what wrote it, all is drawn.
+#[test]
+fn a_character_is_not_clear_as_a_whole() {
+    let folder = painted([255, 0, 0, 255], |file| {
+        for material in file["materials"].as_array_mut().unwrap() {
+            material["alphaMode"] = json!("BLEND");
+            material["pbrMetallicRoughness"]["baseColorFactor"] = json!([1.0, 1.0, 1.0, 0.0]);
+        }
+    });
+    let hair = hair(&folder);
+    let notes = scene(folder.path(), hair).unwrap().notes().join("\n");
+    assert!(
+        notes.contains("girl.gltf: all of its materials are clear"),
+        "{notes}"
+    );
+    for (texel, _) in pictures(folder.path(), hair) {
+        assert_eq!(texel, [1.0, 0.0, 0.0, 1.0]);
+    }
+}
+
 /// Colours of vertices are multiplied by the material's (3.9.2).
 #[test]
 fn colours_of_vertices_are_multiplied_in() {
@@ -190,8 +210,11 @@ fn triangles_have_the_colours_of_their_corners() {
         };
         assert_eq!(texture.places.len(), surface.vertices.len());
         let at = |place: Vec2| {
-            let [red, green, blue, _] = texture.image.at(place.into(), 0.0, texture.repeats);
-            Vec3::new(red, green, blue)
+            // However small it is on the screen.
+            let [sharp, blurred] =
+                [0.0, 0.5].map(|size| texture.image.at(place.into(), size, texture.repeats));
+            assert_eq!(sharp, blurred);
+            Vec3::new(sharp[0], sharp[1], sharp[2])
         };
         for triangle in &surface.triangles {
             let places = triangle.map(|corner| texture.places[corner as usize]);
@@ -254,7 +277,9 @@ fn a_shell_is_seen_past_the_edges_alone() {
     };
     let (surfaces, head, notes) = with(false);
     assert_eq!(head, bare);
-    assert!(!notes.contains("inwards"), "{notes}");
+    let told = "girl.gltf: mesh `Shell` faces inwards around others: an outline of the file's own";
+    assert!(notes.contains(told), "{notes}");
+    assert!(!notes.contains("turned around"), "{notes}");
     let black = |surfaces: &[Surface]| {
         let black = surfaces.iter().filter(|surface| surface.light == [0.0; 3]);
         black
