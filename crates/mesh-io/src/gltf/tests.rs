@@ -505,15 +505,9 @@ fn mistakes_name_their_place() {
         file.json.pointer_mut(parent).unwrap()[key] = value;
         file.refused(expected);
     }
-    // Where another crate asks serde_json for `float_roundtrip`, it refuses such a number itself.
     let mut file = whole();
     file.json["nodes"][2]["translation"] = json!([1e39, 0.0, 0.0]);
-    let message = file.read().unwrap_err().to_string();
-    let messages = [
-        "node 2 is at a place that is not finite",
-        "number out of range",
-    ];
-    assert!(messages.iter().any(|m| message.contains(m)), "{message}");
+    file.refused("number out of range");
 
     let mut file = File::triangle();
     // Who has the numbers a second time as they are needs no unpacking.
