@@ -82,13 +82,20 @@ fn a_driver_draws_what_the_cpu_draws() {
     let folder = folder();
     let output = render(&folder, "gpu").output().unwrap();
     let told = String::from_utf8_lossy(&output.stderr);
-    if told.contains("there is no graphics card")
+    if told.contains("there is no graphics card to draw on")
         && std::env::var_os("CI").is_none_or(|ci| ci != "true")
     {
         eprintln!("SKIPPED: no driver for a graphics card");
         return;
     }
     assert!(output.status.success(), "{told}");
+    // A driver in software is told.
+    let driver = ::render::gpu::Gpu::open(::render::gpu::AdapterKind::Hardware);
+    assert_eq!(
+        told.contains("runs its programs on the CPU"),
+        driver.is_err(),
+        "{told}"
+    );
     let by_card = stats(&folder);
     assert_eq!(by_card["backend"], "gpu");
     assert_eq!(by_card["size"], serde_json::json!([80, 60]));

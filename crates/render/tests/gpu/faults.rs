@@ -1,6 +1,6 @@
 //! What goes wrong on a graphics card is told, and nothing panics.
 
-use crate::scene::{Scene, driver, driver_gpu, layers, noop, registry};
+use crate::scene::{Scene, camera, driver, driver_gpu, layers, noop, registry};
 use effects::wgsl::Stroke;
 use effects::{Input, Joints, Param, Parameters, Program, StrokeEffect, Values};
 use render::gpu::{GpuError, Offscreen, PassDepth, PassFormat, Renderer};
@@ -44,21 +44,10 @@ fn a_frame_that_does_not_fit_is_refused_and_the_next_one_drawn() {
     };
     assert!(*most == 96 << 10 && *bytes > *most, "{what}");
     let mut small = Scene::random(1);
-    small.camera = small_camera();
+    small.camera = camera([16, 16]);
     small.layers.truncate(1);
     small.layer_joints.truncate(1);
     card.draw(&small.frame(), 1).unwrap();
-}
-
-fn small_camera() -> stroke_path::Camera {
-    let view = stroke_path::OrbitView {
-        target: glam::Vec3::ZERO,
-        yaw_degrees: 0.0,
-        pitch_degrees: 0.0,
-        distance_m: 0.7,
-        vertical_fov_degrees: 40.0,
-    };
-    stroke_path::Camera::orbit(view, [16, 16], 0.05).unwrap()
 }
 
 /// An effect whose WGSL no driver takes: it says so by a name that isn't there.

@@ -1,14 +1,12 @@
 //! Samples that know what they show: a graphics card tells, paints and draws lines as the CPU does.
 
 use crate::agree::{on_cpu, share_beyond};
-use crate::scene::{Scene, driver, noop, registry};
+use crate::scene::{Scene, camera, driver, noop, registry};
 use effects::{Image, Variation};
-use glam::Vec3;
 use render::cpu::{Evaluator, Rasterizer};
 use render::gpu::{GpuError, Offscreen, PassFormat, Renderer};
 use render::{Drawing, EdgeChannel, Edges, Feature, Features, Sample, SamplePlanes};
 use std::sync::Arc;
-use stroke_path::{Camera, OrbitView};
 
 const SAMPLES: u32 = 4;
 
@@ -329,15 +327,7 @@ fn what_a_card_cannot_draw_is_told() {
     let mut card = Offscreen::on(noop(limits)).unwrap();
     let mut scene = Scene::random(3);
     scene.passes = vec![edges(2.0)];
-    let view = OrbitView {
-        target: Vec3::ZERO,
-        yaw_degrees: 0.0,
-        pitch_degrees: 0.0,
-        distance_m: 0.7,
-        vertical_fov_degrees: 40.0,
-    };
-    let small = Camera::orbit(view, [60, 50], 0.05).unwrap();
-    let whole = std::mem::replace(&mut scene.camera, small);
+    let whole = std::mem::replace(&mut scene.camera, camera([60, 50]));
     card.draw(&scene.frame(), SAMPLES).unwrap();
     scene.camera = whole;
     let error = card.draw(&scene.frame(), SAMPLES).unwrap_err();

@@ -375,6 +375,18 @@ impl Scene {
     }
 }
 
+/// An eye in front of the head that sees so many pixels.
+pub fn camera(size: [u32; 2]) -> Camera {
+    let view = OrbitView {
+        target: Vec3::ZERO,
+        yaw_degrees: 0.0,
+        pitch_degrees: 0.0,
+        distance_m: 0.7,
+        vertical_fov_degrees: 40.0,
+    };
+    Camera::orbit(view, size, 0.05).unwrap()
+}
+
 /// A device that validates all and draws nothing.
 pub fn noop(limits: wgpu::Limits) -> Gpu {
     let (device, queue) = wgpu::Device::noop(&wgpu::DeviceDescriptor {

@@ -2,13 +2,12 @@
 
 use crate::agree::{on_cpu, share_beyond};
 use crate::meshes;
-use crate::scene::{Scene, driver_gpu, noop};
+use crate::scene::{Scene, camera, driver_gpu, noop};
 use effects::{Image, Variation};
-use glam::{Vec2, Vec3};
+use glam::Vec2;
 use render::gpu::{Gpu, GpuError, Offscreen, PassDepth, PassFormat, Renderer};
 use render::{Coverage, EdgeChannel, Edges, SurfaceTexture, SurfaceVertex};
 use std::sync::Arc;
-use stroke_path::{Camera, OrbitView};
 use wgpu::CompareFunction::{Greater, GreaterEqual, Less, LessEqual};
 
 /// A device that draws, with these limits. Nothing where there is no driver.
@@ -26,17 +25,6 @@ fn limited(required_limits: wgpu::Limits) -> Option<Offscreen> {
     let device = pollster::block_on(adapters.first()?.request_device(&wanted));
     let (device, queue) = device.unwrap();
     Some(Offscreen::on(Gpu::with(device, queue)).unwrap())
-}
-
-fn camera(size: [u32; 2]) -> Camera {
-    let view = OrbitView {
-        target: Vec3::ZERO,
-        yaw_degrees: 0.0,
-        pitch_degrees: 0.0,
-        distance_m: 0.7,
-        vertical_fov_degrees: 40.0,
-    };
-    Camera::orbit(view, size, 0.05).unwrap()
 }
 
 /// Gives its surfaces a picture of such sides.
@@ -178,6 +166,7 @@ fn prepared_frames_may_be_submitted_in_any_order() {
             .poll(wgpu::PollType::wait_indefinitely())
             .unwrap()
     };
+    drop(prepare());
     for _ in 0..2 {
         let [a, b] = [prepare(), prepare()];
         gpu.queue.submit([b]);
@@ -195,8 +184,14 @@ fn prepared_frames_may_be_submitted_in_any_order() {
     gpu.queue.submit([prepare()]);
     wait();
     drop(prepare());
-    // Reports still come.
-    assert!(renderer.stats().bytes > 0);
+    // Reports come all the same.
+    if gpu
+        .device
+        .features()
+        .contains(wgpu::Features::TIMESTAMP_QUERY)
+    {
+        assert!(renderer.stats().milliseconds.is_some());
+    }
     gpu.check().unwrap();
 }
 

@@ -61,6 +61,8 @@ struct Near {
     /// In cells as wide as the reach.
     cells: HashMap<IVec3, Vec<u32>>,
     reach: f32,
+    /// Where cells begin.
+    low: Vec3,
 }
 
 impl Near {
@@ -75,6 +77,7 @@ impl Near {
             reach: (REACH * (high - low).length()).max(f32::MIN_POSITIVE),
             vertices,
             cells: HashMap::new(),
+            low,
         };
         for number in 0..near.vertices.len() {
             let cell = near.cell(near.vertices[number].place);
@@ -84,7 +87,7 @@ impl Near {
     }
 
     fn cell(&self, place: Vec3) -> IVec3 {
-        (place / self.reach).floor().as_ivec3()
+        ((place - self.low) / self.reach).floor().as_ivec3()
     }
 
     /// Whether most vertices of a mesh have, in front of them, the outside of another one.
@@ -215,6 +218,19 @@ mod tests {
         assert_eq!(found(around(true), false, rig()), [false, false]);
         assert_eq!(found(around(false), true, rig()), [false, false]);
         assert_eq!(found(around(false), false, None), [false, false]);
+        // So it is wherever they lie.
+        let far_out = around(false).into_iter().map(|mut mesh| {
+            for place in &mut mesh.positions {
+                *place = 100.0 * *place + 1e6;
+            }
+            mesh
+        });
+        assert_eq!(found(far_out.collect(), false, rig()), [false, true]);
+        let at_one_place = around(false).into_iter().map(|mut mesh| {
+            mesh.positions.fill(Vec3::splat(1e8));
+            mesh
+        });
+        assert_eq!(found(at_one_place.collect(), false, rig()), [false, false]);
         // Nor is one far away, or alone.
         let far = vec![arm(), tube(Vec3::X, 0.053, 0.0, false)];
         assert_eq!(found(far, false, rig()), [false, false]);
