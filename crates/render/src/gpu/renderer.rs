@@ -16,7 +16,8 @@ use crate::edges::Edges;
 use crate::features::Features;
 use crate::frame::Frame;
 use crate::planes::ALWAYS;
-use crate::samples::sample_positions;
+use crate::samples::{SampleCountError, sample_positions, standard_positions};
+use glam::Vec2;
 use wgpu::{BindGroup, BindGroupLayout, ComputePipeline, Device, Queue};
 
 /// What a renderer has, and what its last frame took.
@@ -187,7 +188,12 @@ impl Renderer {
             Some(composer) if composer.fits(&pass) => composer,
             _ => Composer::new(&self.device, pass)?,
         };
-        let is_new = self.draw(encoder, Source::Frame(frame), samples, Keeps::Samples)?;
+        let places = match pass.samples {
+            1 => sample_positions(samples)?,
+            // Where the card has them.
+            several => standard_positions(several).ok_or(SampleCountError(several))?,
+        };
+        let is_new = self.draw(encoder, Source::Frame(frame), &places, Keeps::Samples)?;
         let buffers = &self.buffers;
         let (Some(frame), Some(drawn)) = (buffers.frame.get(), buffers.picture.get()) else {
             return Err(GpuError::Memory);
@@ -213,7 +219,7 @@ impl Renderer {
         source: Source,
         samples: u32,
     ) -> Result<(), GpuError> {
-        self.draw(encoder, source, samples, Keeps::Means)
+        self.draw(encoder, source, &sample_positions(samples)?, Keeps::Means)
             .map(|_| ())
     }
 
@@ -230,7 +236,8 @@ impl Renderer {
         frame: &Frame,
         samples: u32,
     ) -> Result<(), GpuError> {
-        self.draw(encoder, Source::Frame(frame), samples, Keeps::Features)
+        let places = sample_positions(samples)?;
+        self.draw(encoder, Source::Frame(frame), &places, Keeps::Features)
             .map(|_| ())
     }
 
@@ -258,10 +265,10 @@ impl Renderer {
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
         source: Source,
-        samples: u32,
+        places: &[Vec2],
         keeps: Keeps,
     ) -> Result<bool, GpuError> {
-        let places = sample_positions(samples)?;
+        let samples = places.len() as u32;
         self.stats.made = 0;
         self.read_report();
         let (size, order, settings) = match source {
@@ -327,7 +334,7 @@ impl Renderer {
             writes_samples: u32::from(has_samples),
             ..settings
         };
-        let made = self.write_buffers(&settings, &places, tile_count, values * 16)?;
+        let made = self.write_buffers(&settings, places, tile_count, values * 16)?;
         self.stats.made += made;
         let groups = groups.filter(|_| !has_other_pictures && made == 0);
         let is_new = groups.is_none();
@@ -427,7 +434,7 @@ impl Renderer {
     fn write_buffers(
         &mut self,
         settings: &GpuFrame,
-        places: &[glam::Vec2],
+        places: &[Vec2],
         tile_count: u64,
         picture_bytes: u64,
     ) -> Result<usize, GpuError> {
