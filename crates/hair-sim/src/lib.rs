@@ -93,7 +93,7 @@ mod threads;
 
 pub use collision::{
     grid::{GridError, SignedDistance},
-    shape::{Collider, Placed, Shape},
+    shape::{Collider, LEADS_OUT, Placed, Shape},
 };
 pub use error::{DynamicsError, Fault, Reason};
 pub use forces::{

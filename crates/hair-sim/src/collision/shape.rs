@@ -141,6 +141,10 @@ impl<'a> Collider<'a> {
     }
 }
 
+/// Where the root of a strand is in a body, hair comes out of it by this share of its length: by all of it a strand would be pulled taut,
+/// by more its links would be torn apart, and the way out may go along another body.
+pub const LEADS_OUT: f64 = 0.4;
+
 /// A body where it is when the step ends, made ready to be asked often and in single precision: for what is drawn.
 ///
 /// ```

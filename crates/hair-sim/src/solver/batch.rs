@@ -45,6 +45,8 @@ pub(crate) struct Batch {
     pub planes: usize,
     /// Particles from the root in style space.
     pub styled: Vec<Vec3>,
+    /// How much hair is between the root and particles, in m.
+    pub along: Vec<Lane>,
     /// Root and skin frame in style space.
     pub root: Vec3,
     pub base: Quat,
@@ -96,6 +98,7 @@ impl Batch {
             lock_radius: Lane::ZERO,
             planes: count,
             styled: vec![Vec3::ZERO; count],
+            along: vec![Lane::ZERO; count],
             root: Vec3::ZERO,
             base: Quat::IDENTITY,
             used: Mask::NONE,
@@ -127,6 +130,7 @@ impl Batch {
             along += link.length;
             self.lever[lane] += link.mass * along;
             self.styled[k].set(lane, y);
+            self.along[k][lane] = along;
             self.links[k].length[lane] = link.length;
             self.links[k].bend[lane] = link.bend;
             self.links[k].twist[lane] = link.twist;
@@ -146,8 +150,12 @@ impl Batch {
     /// The particle that a plane holds.
     #[inline(always)]
     pub(crate) fn held_by(&self, plane: usize) -> usize {
-        let count = self.count();
-        if plane < count { plane } else { plane - count }
+        plane % self.count()
+    }
+
+    /// How many planes may hold particles, where bodies may give them a second one: those come last.
+    pub(crate) fn planes_with_second(&self) -> usize {
+        self.planes + self.count()
     }
 
     /// Whether a state with `count` frames will do: straight strands need none, and keep them as they are.
@@ -188,7 +196,8 @@ pub(crate) struct BatchState {
     /// By how much particles are farther from bodies than they would be alone, for the sake of the links beside them, in m;
     /// empty where there are no bodies that links count for.
     pub lifts: Vec<Lane>,
-    /// The pressure of planes on particles in m/s^2: of bodies, then those of other strands, where there may be any.
+    /// The pressure of planes on particles in m/s^2: of bodies, then those of other strands, where there may be any, and second ones
+    /// of bodies, where there are any that links count for.
     pub press: Vec<Lane>,
     /// The speeds in m/s below which friction with them is viscous; 0 where the pressure is that of a blow, which is over.
     pub creep: Vec<Lane>,
@@ -202,6 +211,8 @@ pub(crate) struct BatchState {
     pub restless: Lane,
     /// Strands that anchors held in the last step.
     pub tied: [bool; LANES],
+    /// Those that two bodies had planes for then, of which links count for one.
+    pub between: [bool; LANES],
     /// For how long they have rocked on a body, in s.
     pub rocking: Lane,
     /// Where the tips were a step before, and their way in the step before that.
@@ -254,6 +265,7 @@ impl BatchState {
             calm: Lane::ZERO,
             restless: Lane::ZERO,
             tied: [false; LANES],
+            between: [false; LANES],
             rocking: Lane::ZERO,
             tip_before: Vec3::ZERO,
             tip_way: Vec3::ZERO,
@@ -299,7 +311,10 @@ impl BatchState {
         vectors.iter().all(|list| list.len() == count)
             && self.skin.len() == count
             && (self.lifts.is_empty() || self.lifts.len() == count)
-            && planes.iter().all(|list| list.len() == batch.planes)
+            && planes
+                .iter()
+                .all(|list| list.len() == batch.planes || list.len() == batch.planes_with_second())
+            && self.press.len() == self.creep.len()
             && (self.goal.is_empty() || self.goal.len() == count)
             && [&self.alone, &self.recalled]
                 .iter()
@@ -310,6 +325,15 @@ impl BatchState {
     #[inline(always)]
     pub(crate) fn aside(&self) -> Mask {
         Mask::new(self.set_aside.map(|r| r.is_some()))
+    }
+
+    /// Makes room for so many planes.
+    #[inline(always)]
+    pub(crate) fn hold_planes(&mut self, planes: usize) {
+        if self.press.len() != planes {
+            self.press.resize(planes, Lane::ZERO);
+            self.creep.resize(planes, Lane::splat(CREEP));
+        }
     }
 
     /// Strands that were taken out of a body start anew.

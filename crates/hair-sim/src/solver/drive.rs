@@ -17,7 +17,10 @@ use crate::{
 
 use super::{
     batch::{Batch, BatchState},
-    contact::find::{self, Bodies, Guard, Planes},
+    contact::{
+        Contact,
+        find::{self, Bodies, Guard, Planes},
+    },
     load::Loads,
     locks::Locks,
     rods::Rods,
@@ -273,13 +276,25 @@ pub(crate) fn prepare<T: Number>(
             state.skin_known = true;
         }
         let bodies = drive.bodies(state.root, root.root);
+        let room = if bodies.have_links() {
+            batch.planes_with_second()
+        } else {
+            batch.planes
+        };
+        state.hold_planes(room);
+        if loads.contacts.len() < room {
+            loads.contacts.resize(room, Contact::NONE);
+        }
         let planes = Planes {
             contacts: &mut loads.contacts,
             touched: &mut loads.touched,
             ways: &mut loads.ways,
         };
         let mut lifts = std::mem::take(&mut state.lifts);
-        stats.contacts = find::detect::<T>((batch, &*state), &bodies, active, planes, &mut lifts);
+        let (found, between) =
+            find::detect::<T>((batch, &*state), &bodies, active, planes, &mut lifts);
+        stats.contacts = found;
+        state.between = between;
         state.lifts = lifts;
     }
     if let Some((index, locks)) = drive.locks {

@@ -2,7 +2,7 @@
 //!
 //! Where locks that keep out of each other are pressed together there may be no place in which all of them do. Each step holds a particle by the
 //! plane that is most urgent, the next by another, and what is shoved to and fro would tremble for ever. So would strands that a tie gathers over a
-//! body. A strand that others press on, or a body where anchors hold it, and that has gone to and fro by itself for some seconds gives in: its locks part no more
+//! body. A strand that others press on, or a body where anchors hold it or another is as near, and that has gone to and fro by itself for some seconds gives in: its locks part no more
 //! ([`super::locks::PATIENCE`]), and it sticks where it is on the head, the faster the longer it goes on, as hair does that has felted. What swings
 //! gets on, and doesn't count for some seconds. So does a strand stick that rocks on a body, turning back in every step or every second one, about a particle that
 //! friction holds there. Roots, air, bodies and anchors that move make it forget.
@@ -112,7 +112,7 @@ fn has_swung(batch: &Batch, state: &BatchState) -> Mask {
     is_late.and((state.calm * drag).gt(Lane::splat(SWUNG)))
 }
 
-/// What counts of the step before, in s: as moved, where others press on strands, or a body on those that are tied, and they go nowhere; and as rocked, where a
+/// What counts of the step before, in s: as moved, where others press on strands, or a body on those that are tied or between two, and they go nowhere; and as rocked, where a
 /// body presses on any, and they turn back. Of both, until they stick, what goes on takes away again.
 #[inline(always)]
 fn moved(
@@ -122,7 +122,9 @@ fn moved(
     [goes_nowhere, turned_back]: [Mask; 2],
 ) -> [Lane; 2] {
     let (bodies, others) = state.press.split_at(batch.count());
-    let tied = Mask::new(state.tied).pick(Lane::ONE, Lane::ZERO);
+    let (others, second) = others.split_at(batch.planes - batch.count());
+    let held_fast = Mask::new(state.tied).or(Mask::new(state.between));
+    let held_fast = held_fast.pick(Lane::ONE, Lane::ZERO);
     let counts = |so_far: Lane, here: Mask, goes_on: f64| {
         let patient = so_far.lt(Lane::splat(PATIENCE[0]));
         here.pick(Lane::ONE, patient.pick(Lane::splat(-goes_on), Lane::ZERO))
@@ -130,9 +132,9 @@ fn moved(
     let stays = counts(state.restless, goes_nowhere, GETS_ON);
     let turns = counts(state.rocking, turned_back, GOES_ON);
     let (mut held, mut rocks) = (Lane::ZERO, Lane::ZERO);
-    for press in bodies {
+    for press in bodies.iter().chain(second) {
         let presses = press.gt(Lane::ZERO);
-        held = presses.pick(tied * stays, held);
+        held = presses.pick(held_fast * stays, held);
         rocks = presses.pick(turns, rocks);
     }
     for press in others {

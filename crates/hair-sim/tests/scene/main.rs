@@ -13,6 +13,7 @@ mod ridges;
 mod roots;
 mod sleep;
 mod swings;
+mod wedged;
 mod wind;
 
 use glam::{DVec3, Vec3};

@@ -1,7 +1,7 @@
 //! Hair that is moved out of bodies as a whole: what is styled in them, what guides carry, and what the solver leaves in them between two particles.
 
 use glam::Vec3;
-use hair_sim::Placed;
+use hair_sim::{LEADS_OUT, Placed};
 
 /// How often points are moved out: each move may push others in.
 const CLEARINGS: u32 = 16;
@@ -23,7 +23,8 @@ const ROUNDING: f32 = 1e-6;
 pub(crate) type Gap = [f32; PLACES.len()];
 
 /// Moves the points of a strand behind the first `held` out of bodies, with the way that is drawn between them, until each place is as far away as
-/// `gap` says of the link that ends at a point, which is `most` m at most, but for a tenth of a millimetre. Whether any moved: what is clear stays, to the bit.
+/// `gap` says of the link that ends at a point, which is `most` m at most, but for a tenth of a millimetre; where the last held point is in a body, hair comes
+/// out of it by and by ([`LEADS_OUT`]). Whether any moved: what is clear stays, to the bit.
 pub(crate) fn clear(
     points: &mut [Vec3],
     held: usize,
@@ -33,6 +34,7 @@ pub(crate) fn clear(
 ) -> bool {
     let held = held.max(1);
     let mut near = Near::new(bodies);
+    near.root(points, held - 1);
     let mut has_moved = false;
     for _ in 0..CLEARINGS {
         let mut farthest = 0.0_f32;
@@ -125,6 +127,8 @@ struct Near<'a, 'b> {
     bulge: f32,
     /// How far the links there are from going on straight and even, m.
     bend: f32,
+    /// Where the last point that is held is in a body: how far hair leads out of it to each point, m. Else nothing.
+    led: Vec<f32>,
 }
 
 /// Distances from a body, or less than those, m.
@@ -136,6 +140,8 @@ pub(crate) struct Known {
     middle: f32,
     /// Whether the way to there may come nearer than was asked for. Then the first is the distance.
     may_meet: bool,
+    /// At the last point that is held.
+    root: f32,
 }
 
 impl<'a, 'b> Near<'a, 'b> {
@@ -145,6 +151,27 @@ impl<'a, 'b> Near<'a, 'b> {
             link: 0.0,
             bulge: 0.0,
             bend: 0.0,
+            led: Vec::new(),
+        }
+    }
+
+    /// Takes note of how far the last point that is held is from bodies.
+    fn root(&mut self, points: &[Vec3], at: usize) {
+        let mut is_in = false;
+        for (body, known) in &mut *self.bodies {
+            known.root = body.distance(points[at]);
+            is_in |= known.root < 0.0;
+        }
+        if is_in {
+            let links = points.windows(2).map(|link| link[0].distance(link[1]));
+            let lengths = links
+                .enumerate()
+                .map(|(i, link)| if i < at { 0.0 } else { link });
+            let led = lengths.scan(0.0, |along, length| {
+                *along += length * LEADS_OUT as f32;
+                Some(*along)
+            });
+            self.led = std::iter::once(0.0).chain(led).collect();
         }
     }
 
@@ -192,7 +219,10 @@ impl<'a, 'b> Near<'a, 'b> {
         let (link, bulge) = (self.link, self.bulge);
         let mut deepest: Option<(f32, &Placed)> = None;
         let mut at = None;
+        let led = self.led.get(to - 1..=to);
+        let led = led.map(|led| led[0] + (led[1] - led[0]) * PLACES[place]);
         for (body, known) in &mut *self.bodies {
+            let gap = led.map_or(gap, |led| gap.min(known.root + led));
             // No more than the distance.
             let least = match place {
                 _ if moves => f32::NEG_INFINITY,
@@ -215,13 +245,14 @@ impl<'a, 'b> Near<'a, 'b> {
             if place == 1 {
                 known.middle = distance;
             }
-            if distance < gap && deepest.is_none_or(|(other, _)| distance < other) {
-                deepest = Some((distance, *body));
+            let lack = gap - distance;
+            if lack > 0.0 && deepest.is_none_or(|(other, _)| lack > other) {
+                deepest = Some((lack, *body));
             }
         }
-        let (distance, body) = deepest?;
+        let (lack, body) = deepest?;
         let at = at.unwrap_or_else(|| on_path(points, to, PLACES[place]));
-        Some(body.outwards(at) * (gap - distance))
+        Some(body.outwards(at) * lack)
     }
 }
 
@@ -303,6 +334,28 @@ mod tests {
             |_| [-0.06; 4]
         ));
         assert_eq!(same, straight);
+    }
+
+    /// A root that a ball has swallowed stays; what follows comes out by and by, and its links aren't torn.
+    #[test]
+    fn what_is_rooted_in_a_body_comes_out_of_it_whole() {
+        let ball = ball(0.0, 0.06);
+        let straight: Vec<Vec3> = (0..9)
+            .map(|i| Vec3::new(0.01, -0.01 - 0.025 * i as f32, 0.02))
+            .collect();
+        let mut moved = straight.clone();
+        let gap = 1e-3;
+        let mut bodies = followed(std::slice::from_ref(&ball));
+        clear(&mut moved, 1, &mut bodies, gap, |_| [gap; 4]);
+        assert_eq!(moved[0], straight[0]);
+        for link in moved.windows(2) {
+            let length = link[0].distance(link[1]);
+            assert!((length - 0.025).abs() < 0.004, "{length}");
+        }
+        let nearest = (moved[5..].iter())
+            .map(|at| ball.distance(*at))
+            .fold(f32::INFINITY, f32::min);
+        assert!(nearest > gap - 2.0 * NEAR, "{nearest}");
     }
 
     proptest! {

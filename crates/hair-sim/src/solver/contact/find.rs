@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 
 use crate::{
-    collision::shape::{Collider, Shape},
+    collision::shape::{Collider, LEADS_OUT, Shape},
     lanes::{LANES, Lane, Mask, Number, Vec3},
 };
 
@@ -90,6 +90,26 @@ impl Guard {
         near.and(self.reach(from, to, keep).store().lt(apart).not())
     }
 
+    /// How far roots are from the body, in m; those outside of the ball around it are known by this alone.
+    #[inline(always)]
+    fn distances_of<T: Number>(&self, roots: Vec3, shape: &Shape) -> Lane {
+        let roots: Vec3<T> = roots.load();
+        let apart = (roots - Vec3::all(self.center)).length_squared().store();
+        let inside = apart.gt(Lane::splat(self.radius * self.radius)).not();
+        if !inside.any() {
+            return Lane::splat(f64::INFINITY);
+        }
+        let at = turned(&self.back, roots - Vec3::all(self.origin));
+        let distances = match shape {
+            Shape::Grid(grid) => grid.distances(at).store(),
+            shape => {
+                let at = at.store();
+                Lane(std::array::from_fn(|lane| shape.distance(at.get(lane))))
+            }
+        };
+        inside.pick(distances, Lane::splat(f64::INFINITY))
+    }
+
     /// How far from where it ends a particle may meet the body's surface.
     #[inline(always)]
     fn reach<T: Number>(&self, from: Vec3<T>, to: Vec3<T>, keep: T) -> T {
@@ -114,6 +134,8 @@ pub(crate) struct Ways {
     pub(super) to: Vec<Vec3>,
     /// The strands whose particle, or the link after it, may come near a body.
     pub(super) near: Vec<Mask>,
+    /// How far the strands' roots are from each body when the step ends, in m.
+    roots: Vec<Lane>,
 }
 
 impl Ways {
@@ -123,7 +145,31 @@ impl Ways {
             from: vec![Vec3::ZERO; count],
             to: vec![Vec3::ZERO; count],
             near: vec![Mask::NONE; count],
+            roots: Vec::new(),
         }
+    }
+
+    /// Takes note of how far roots are from bodies.
+    #[inline(always)]
+    pub(super) fn look_at_roots<T: Number>(&mut self, bodies: &Bodies) {
+        let bodies_of = bodies.guards.iter().zip(bodies.colliders);
+        let distances =
+            bodies_of.map(|(guard, body)| guard.distances_of::<T>(bodies.now, &body.shape));
+        self.roots.clear();
+        self.roots.extend(distances);
+    }
+
+    /// Bodies with how far the root of a strand is from each.
+    #[inline(always)]
+    pub(super) fn of_root<'a, 'b>(
+        &self,
+        colliders: &'b [Collider<'a>],
+        lane: usize,
+    ) -> impl Iterator<Item = (&'b Collider<'a>, f64)> {
+        colliders
+            .iter()
+            .zip(&self.roots)
+            .map(move |(body, roots)| (body, roots[lane]))
     }
 }
 
@@ -193,20 +239,46 @@ pub(crate) fn settle_in(batch: &Batch, state: &mut BatchState, colliders: &[Coll
     }
 }
 
-/// Finds the planes of a step. Returns the number of particles that have one; their places on the strands are added to `touched`.
+/// Finds the planes of a step. Returns the number of particles that have one, whose places on the strands are added to `touched`, and
+/// the strands that are between two bodies.
 pub(crate) fn detect<T: Number>(
     (batch, state): (&Batch, &BatchState),
     bodies: &Bodies,
     active: Mask,
     planes: Planes,
     lifts: &mut Vec<Lane>,
-) -> usize {
+) -> (usize, [bool; LANES]) {
     if bodies.have_links() {
         lifts.resize(batch.count(), Lane::ZERO);
-        detect_with_links::<T>((batch, state), bodies, active, planes, lifts)
+        let mut between = [Between::default(); LANES];
+        let found = detect_with_links::<T>(
+            (batch, state),
+            bodies,
+            active,
+            planes,
+            (lifts, &mut between),
+        );
+        (found, between.map(|own| own.links_count && own.others))
     } else {
         lifts.clear();
-        detect_alone::<T>((batch, state), bodies, active, planes)
+        let found = detect_alone::<T>((batch, state), bodies, active, planes);
+        (found, [false; LANES])
+    }
+}
+
+/// Which bodies have planes for a strand.
+#[derive(Clone, Copy, Default)]
+struct Between {
+    first: Option<usize>,
+    /// Whether there are others than the first, and any that links count for.
+    others: bool,
+    links_count: bool,
+}
+
+impl Between {
+    fn note(&mut self, body: usize, guard: &Guard) {
+        self.others |= *self.first.get_or_insert(body) != body;
+        self.links_count |= guard.has_links;
     }
 }
 
@@ -217,21 +289,22 @@ pub(crate) struct Planes<'a> {
     pub ways: &'a mut Ways,
 }
 
-/// Puts a plane before particle `k` of a strand. A particle's planes come one after the other.
+/// Puts a plane before particle `k` of a strand, in a row of planes. Those of a row come one after the other.
 #[inline(always)]
 fn put(
     contacts: &mut [Contact],
     touched: &mut Vec<usize>,
-    (k, lane): (usize, usize),
+    (row, k, lane): (usize, usize, usize),
     surface: &Surface,
     of: (&Batch, &BatchState),
 ) {
-    let contact = &mut contacts[k];
-    if touched.last() != Some(&k) {
+    let slot = row + k;
+    let contact = &mut contacts[slot];
+    if touched.last() != Some(&slot) {
         contact.clear();
-        touched.push(k);
+        touched.push(slot);
     }
-    contact.set(lane, surface, of, (k, k));
+    contact.set(lane, surface, of, (slot, k));
 }
 
 /// How far a rotation moves what lies one metre from its axis, in m.
@@ -266,11 +339,14 @@ fn detect_alone<T: Number>(
         #[inline(always)]
         move || {
             let Planes {
-                contacts, touched, ..
+                contacts,
+                touched,
+                ways,
             } = planes;
             let mut found = 0;
             // What is unknown was a blow, which is over.
             let known = T::condition(&Mask::new(state.restart).not());
+            ways.look_at_roots::<T>(bodies);
             for k in 0..batch.count() {
                 let [from, to] = way::<T>(k, state, bodies, known);
                 let keep = batch.thickness.load::<T>() + state.skin[k].load();
@@ -291,14 +367,16 @@ fn detect_alone<T: Number>(
                         from: from.get(lane),
                         to: to.get(lane),
                         keep: keep[lane],
+                        along: LEADS_OUT * batch.along[k][lane],
                         dt: bodies.dt,
                     };
-                    let Some((collider, plane)) = path.first(bodies.colliders) else {
+                    let bodies_of_root = ways.of_root(bodies.colliders, lane);
+                    let Some((collider, plane)) = path.first(bodies_of_root) else {
                         continue;
                     };
                     found += 1;
                     let surface = bodies.surface(lane, collider, &plane);
-                    put(contacts, touched, (k, lane), &surface, (batch, state));
+                    put(contacts, touched, (0, k, lane), &surface, (batch, state));
                 }
             }
             found
@@ -312,7 +390,7 @@ fn detect_with_links<T: Number>(
     bodies: &Bodies,
     active: Mask,
     planes: Planes,
-    lifts: &mut [Lane],
+    (lifts, between): (&mut [Lane], &mut [Between; LANES]),
 ) -> usize {
     T::run(
         #[inline(always)]
@@ -339,12 +417,12 @@ fn detect_with_links<T: Number>(
                 }
                 return 0;
             }
+            ways.look_at_roots::<T>(bodies);
             let looked = Looked {
                 batch,
                 state,
                 bodies,
-                from: &ways.from,
-                to: &ways.to,
+                ways,
             };
             let mut found = 0;
             let mut before = [None; LANES];
@@ -353,6 +431,7 @@ fn detect_with_links<T: Number>(
                 let after_near = ways.near.get(k + 1).filter(|_| k + 1 < count);
                 let link_near = near.or(after_near.copied().unwrap_or(Mask::NONE));
                 lifts[k] = active.and(near.not()).pick(Lane::ZERO, lifts[k]);
+                let mut seconds = [const { None }; LANES];
                 for lane in 0..LANES {
                     let last = before[lane].take();
                     if !link_near.get(lane) || k >= batch.counts[lane] {
@@ -364,11 +443,18 @@ fn detect_with_links<T: Number>(
                         continue;
                     }
                     let lift = &mut lifts[k][lane];
-                    let Some(surface) = looked.particle(k, lane, [last, after], lift) else {
-                        continue;
-                    };
+                    let of = (lift, &mut between[lane]);
+                    let [surface, second] = looked.particle(k, lane, [last, after], of);
+                    let Some(surface) = surface else { continue };
                     found += 1;
-                    put(contacts, touched, (k, lane), &surface, (batch, state));
+                    put(contacts, touched, (0, k, lane), &surface, (batch, state));
+                    seconds[lane] = second;
+                }
+                for (lane, second) in seconds.iter().enumerate() {
+                    if let Some(surface) = second {
+                        let at = (batch.planes, k, lane);
+                        put(contacts, touched, at, surface, (batch, state));
+                    }
                 }
             }
             found
@@ -409,16 +495,16 @@ struct Looked<'a> {
     batch: &'a Batch,
     state: &'a BatchState,
     bodies: &'a Bodies<'a>,
-    from: &'a [Vec3],
-    to: &'a [Vec3],
+    ways: &'a Ways,
 }
 
 impl Looked<'_> {
     fn path(&self, k: usize, lane: usize) -> Path {
         Path {
-            from: self.from[k].get(lane),
-            to: self.to[k].get(lane),
+            from: self.ways.from[k].get(lane),
+            to: self.ways.to[k].get(lane),
             keep: self.batch.thickness[lane] + self.state.skin[k][lane],
+            along: LEADS_OUT * self.batch.along[k][lane],
             dt: self.bodies.dt,
         }
     }
@@ -429,23 +515,21 @@ impl Looked<'_> {
             return None;
         }
         let ends = [self.path(k - 1, lane), self.path(k, lane)];
-        Lack::deepest(
-            self.bodies.colliders,
-            &ends,
-            self.batch.links[k].length[lane],
-        )
+        let colliders = self.ways.of_root(self.bodies.colliders, lane);
+        Lack::deepest(colliders, ends, self.batch.links[k].length[lane])
     }
 
-    /// The plane of particle `k`, between links that lack this, where `last_lift` is by how much it was farther from a body than it would be alone.
+    /// The planes of particle `k`, between links that lack this, where `last_lift` is by how much it was farther from a body than it would be alone, and `between` the bodies that have any: that which
+    /// it is deepest behind, and the one of another body. Held by one alone, what lies between two bodies would be thrown from one to the other for ever.
     fn particle(
         &self,
         k: usize,
         lane: usize,
         links: [Option<Lack>; 2],
-        last_lift: &mut f64,
-    ) -> Option<Surface> {
+        (last_lift, between): (&mut f64, &mut Between),
+    ) -> [Option<Surface>; 2] {
         let path = self.path(k, lane);
-        let mut best: Option<(&Collider, Plane)> = None;
+        let [mut best, mut second]: [Option<(&Collider, Plane)>; 2] = [None, None];
         let (mut need, mut depth, mut of) = (0.0, f64::NEG_INFINITY, 0);
         for (lack, end) in links.iter().zip([1, 0]) {
             let Some(lack) = lack else { continue };
@@ -461,8 +545,10 @@ impl Looked<'_> {
         } else if depth < -clear {
             *last_lift = last_lift.min(need);
         }
-        for (index, collider) in self.bodies.colliders.iter().enumerate() {
+        let colliders = self.ways.of_root(self.bodies.colliders, lane);
+        for (index, (collider, root)) in colliders.enumerate() {
             let lift = if index == of { *last_lift } else { 0.0 };
+            let path = path.from_root(root);
             let lifted = Path {
                 keep: path.keep + lift,
                 ..path
@@ -471,14 +557,22 @@ impl Looked<'_> {
                 .iter()
                 .flatten()
                 .filter_map(|lack| lack.plane(index, &path, collider));
-            for plane in crossed.chain(lifted.against(collider)) {
-                if best.as_ref().is_none_or(|(_, b)| plane.depth > b.depth) {
-                    best = Some((collider, plane));
-                }
+            let planes = crossed.chain(lifted.against(collider));
+            let Some(plane) = planes.reduce(|a, b| if b.depth > a.depth { b } else { a }) else {
+                continue;
+            };
+            between.note(index, &self.bodies.guards[index]);
+            let is_deeper = |than: &Option<(_, Plane)>| {
+                than.as_ref().is_none_or(|(_, b)| plane.depth > b.depth)
+            };
+            if is_deeper(&best) {
+                second = best.replace((collider, plane));
+            } else if is_deeper(&second) {
+                second = Some((collider, plane));
             }
         }
-        let (collider, plane) = best?;
-        Some(self.bodies.surface(lane, collider, &plane))
+        [best, second]
+            .map(|found| found.map(|(collider, plane)| self.bodies.surface(lane, collider, &plane)))
     }
 }
 
@@ -600,6 +694,7 @@ mod tests {
                 from,
                 to,
                 keep: 1e-3,
+                along: 0.0,
                 dt: 0.01,
             };
             let keep = Lane::splat(path.keep);

@@ -6,7 +6,7 @@
 use glam::{DQuat, DVec3};
 
 use crate::{
-    collision::shape::Collider,
+    collision::shape::{Collider, LEADS_OUT},
     lanes::{LANES, Lane, Mask, Number},
 };
 
@@ -96,9 +96,14 @@ fn strand(
                 (0, 0) => f64::NEG_INFINITY,
                 _ => batch.thickness[lane] + state.skin[k + end - 1][lane],
             }),
+            along: std::array::from_fn(|end| match (k, end) {
+                (0, 0) => 0.0,
+                _ => LEADS_OUT * batch.along[k + end - 1][lane],
+            }),
             length,
             dt: bodies.dt,
         };
+        let colliders = || ways.of_root(bodies.colliders, lane);
         (starts[0], start_before) = (end, end_before);
         if turned {
             // What comes after a link that was turned stays where it is, as far as it can.
@@ -107,11 +112,11 @@ fn strand(
         }
         let is_near = ways.near[k].get(lane) || k > 0 && ways.near[k - 1].get(lane);
         let is_link = k < batch.counts[lane];
-        if is_link && (turned || is_near) && link.turn_out(bodies.colliders) {
+        if is_link && (turned || is_near) && link.turn_out(colliders) {
             turned = true;
             // What lies on a body would fall into it again in the next step.
             let last = &mut state.lifts[k][lane];
-            *last = last.max(link.above(bodies.colliders));
+            *last = last.max(link.above(colliders()));
         }
         starts[1] = link.now[1];
         if turned {
@@ -137,18 +142,28 @@ struct Link {
     before: [DVec3; 2],
     now: [DVec3; 2],
     keep: [f64; 2],
+    /// How far they may be from the root of the strand, in m.
+    along: [f64; 2],
     length: f64,
     dt: f64,
 }
 
 impl Link {
-    /// Turns it about its start until it is out of all bodies. Returns whether it was in one.
-    fn turn_out(&mut self, colliders: &[Collider]) -> bool {
+    /// What an end keeps from a body from which the strand's root is so far.
+    fn keep_of(&self, end: usize, root: f64) -> f64 {
+        self.keep[end].min(root + self.along[end])
+    }
+
+    /// Turns it about its start until it is out of all bodies, of which the strand's root is so far from each. Returns whether it was in one.
+    fn turn_out<'a: 'b, 'b, I>(&mut self, colliders: impl Fn() -> I) -> bool
+    where
+        I: Iterator<Item = (&'b Collider<'a>, f64)>,
+    {
         for turn in 0..MOST_TURNS {
             let most = if turn == 0 { DEEP } else { OUT };
             let mut deepest = (most, 1.0, DVec3::ZERO);
-            for collider in colliders.iter().filter(|body| !body.shape.is_sampled()) {
-                self.look(collider, turn < BY_WAYS, &mut deepest);
+            for body in colliders().filter(|(body, _)| !body.shape.is_sampled()) {
+                self.look(body, turn < BY_WAYS, &mut deepest);
             }
             let (depth, share, normal) = deepest;
             if normal == DVec3::ZERO {
@@ -161,30 +176,37 @@ impl Link {
     }
 
     /// How far its end is from bodies, over what it keeps, in m.
-    fn above(&self, colliders: &[Collider]) -> f64 {
-        let exact = colliders.iter().filter(|body| !body.shape.is_sampled());
-        let distances = exact.map(|body| body.distance(self.now[1]));
-        distances.fold(f64::INFINITY, f64::min) - self.keep[1]
+    fn above<'a: 'b, 'b>(&self, colliders: impl Iterator<Item = (&'b Collider<'a>, f64)>) -> f64 {
+        let exact = colliders.filter(|(body, _)| !body.shape.is_sampled());
+        let above = exact.map(|(body, root)| body.distance(self.now[1]) - self.keep_of(1, root));
+        above.fold(f64::INFINITY, f64::min)
     }
 
     /// Takes the place that is deepest in a body for `deepest`, a depth, a share of the link and the way out, where it is deeper.
-    fn look(&self, collider: &Collider, by_ways: bool, deepest: &mut (f64, f64, DVec3)) {
+    fn look(
+        &self,
+        (collider, root): (&Collider, f64),
+        by_ways: bool,
+        deepest: &mut (f64, f64, DVec3),
+    ) {
         let shape = &collider.shape;
+        let keeps = [0, 1].map(|end| self.keep_of(end, root));
         let ends = self.now.map(|at| {
             let at = collider.now.to_local(at);
             (at, shape.distance(at))
         });
         let mut look = |share: f64, distance: f64| {
             let keep = if share == 1.0 {
-                self.keep[1]
+                keeps[1]
             } else {
-                self.keep[0].min(self.keep[1])
+                keeps[0].min(keeps[1])
             };
             let [from, to] = [&self.before, &self.now].map(|[start, end]| start.lerp(*end, share));
             let path = Path {
                 from,
                 to,
                 keep,
+                along: self.along[1],
                 dt: self.dt,
             };
             let is_in = keep - distance > deepest.0;
@@ -207,9 +229,9 @@ impl Link {
             }
         };
         look(1.0, ends[1].1);
-        if self.keep[0].is_finite() && 0.5 * (ends[0].1 + ends[1].1 - self.length) < self.keep[1] {
+        if keeps[0].is_finite() && 0.5 * (ends[0].1 + ends[1].1 - self.length) < keeps[1] {
             let middle = shape.distance(ends[0].0.lerp(ends[1].0, 0.5));
-            if let Some((share, least)) = lowest(shape, ends, middle, self.keep[1]) {
+            if let Some((share, least)) = lowest(shape, ends, middle, keeps[1]) {
                 look(share, least);
             }
             look(0.5, middle);
@@ -268,6 +290,7 @@ mod tests {
                 ways.to[k].set(lane, above);
             }
         }
+        ways.look_at_roots::<Lane>(&bodies);
         let before = state.clone();
         let turned = keep_out::<Lane>(&batch, &mut state, &bodies, &mut ways, batch.used);
         assert_eq!(turned, batch.used);

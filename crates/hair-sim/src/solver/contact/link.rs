@@ -34,15 +34,20 @@ pub(super) struct Lack {
 }
 
 impl Lack {
-    /// Of the link between two particles with these ways, `length` metres long.
-    pub(super) fn deepest(colliders: &[Collider], ends: &[Path; 2], length: f64) -> Option<Self> {
+    /// Of the link between two particles with these ways, `length` metres long, in bodies from which the strand's root is so far each.
+    pub(super) fn deepest<'a: 'b, 'b>(
+        colliders: impl Iterator<Item = (&'b Collider<'a>, f64)>,
+        ends: [Path; 2],
+        length: f64,
+    ) -> Option<Self> {
         let mut deepest: Option<Self> = None;
-        for (body, collider) in colliders.iter().enumerate() {
+        for (body, (collider, root)) in colliders.enumerate() {
             // The distances of a grid turn at every cell: hair that lies on it would tremble with what they say of links.
             if collider.shape.is_sampled() {
                 continue;
             }
-            let Some(lack) = Self::of((body, collider), ends, length) else {
+            let ends = ends.map(|path| path.from_root(root));
+            let Some(lack) = Self::of((body, collider), &ends, length) else {
                 continue;
             };
             if deepest.as_ref().is_none_or(|last| lack.depth > last.depth) {
@@ -104,7 +109,7 @@ impl Lack {
             from: ends[0].from.lerp(ends[1].from, 0.5),
             to: ends[0].to.lerp(ends[1].to, 0.5),
             keep,
-            dt: ends[0].dt,
+            ..ends[0]
         };
         let at = collider.now.to_local(middle.to);
         if (at - collider.before.to_local(middle.from)).length_squared() < CROSSES * CROSSES {
@@ -200,10 +205,14 @@ mod tests {
             from,
             to,
             keep: 0.0,
+            along: 0.0,
             dt: 1.0 / 60.0,
         };
         let still = |at: DVec3| path(at, at);
-        let of = |ends: [Path; 2]| Lack::deepest(&colliders, &ends, 0.02);
+        let of = |ends: [Path; 2]| {
+            let far = colliders.iter().map(|body| (body, f64::INFINITY));
+            Lack::deepest(far, ends, 0.02)
+        };
         let (x, y) = (0.01, 0.0398);
         let across = of([-x, x].map(|x| still(DVec3::new(x, y, 0.0)))).unwrap();
         let height = ridge.distance(DVec3::new(x, y, 0.0));

@@ -7,10 +7,13 @@ use crate::collision::shape::{Collider, Shape};
 use super::{NEAR, PUSH_OUT, TOUCH};
 
 /// A particle's way through the world in a step of `dt` seconds, on which it keeps `keep` metres from bodies.
+#[derive(Clone, Copy)]
 pub(super) struct Path {
     pub from: DVec3,
     pub to: DVec3,
     pub keep: f64,
+    /// How far it may be from the root of its strand, in m: [`LEADS_OUT`] of the hair between them.
+    pub along: f64,
     pub dt: f64,
 }
 
@@ -23,14 +26,26 @@ pub(super) struct Plane {
 }
 
 impl Path {
-    /// The body whose plane the path's end is deepest behind.
+    /// The same against a body from which the strand's root is so far, in m; less than 0 inside.
+    #[inline(always)]
+    pub(super) fn from_root(self, root: f64) -> Self {
+        Self {
+            keep: self.keep.min(root + self.along),
+            ..self
+        }
+    }
+
+    /// The body whose plane the path's end is deepest behind, of some from which the strand's root is so far each.
     pub(super) fn first<'a, 'b>(
         &self,
-        colliders: &'b [Collider<'a>],
-    ) -> Option<(&'b Collider<'a>, Plane)> {
+        colliders: impl Iterator<Item = (&'b Collider<'a>, f64)>,
+    ) -> Option<(&'b Collider<'a>, Plane)>
+    where
+        'a: 'b,
+    {
         let mut best: Option<(&Collider, Plane)> = None;
-        for collider in colliders {
-            let Some(plane) = self.against(collider) else {
+        for (collider, root) in colliders {
+            let Some(plane) = self.from_root(root).against(collider) else {
                 continue;
             };
             if best.as_ref().is_none_or(|(_, b)| plane.depth > b.depth) {
