@@ -1,6 +1,6 @@
 //! Hair styles and motion scripts: lists of parts, and places on the head.
 
-use crate::pane::{Kind, Pane, click, names, node, open_all, shows, type_into};
+use crate::pane::{Kind, Pane, click, names, node, open_all, set_number, shows, type_into};
 use egui_kittest::Harness;
 use std::path::Path;
 
@@ -280,4 +280,18 @@ fn passes_of_a_look_are_added_set_moved_and_removed() {
     click(&mut harness, "remove pass 2: strand");
     let left = passes(&harness);
     assert_eq!((left.len(), left[0].width.as_constant()), (1, Some(4.0)));
+}
+
+/// Points that are nearer to each other than hands put them are a style's own.
+#[test]
+fn opening_points_changes_nothing() {
+    let style = STYLE.replace(
+        "version: 1,",
+        "version: 1, hairline: [(0, 30), (0.2, 31), (0.4, 30), (180, -20)],",
+    );
+    let mut harness = shown(Kind::Style, &style);
+    assert_eq!(harness.state().edits, []);
+    // What is chosen is within the limits.
+    set_number(&mut harness, "style hairline point 3 longitude", 200.0);
+    says(&harness, "(179.5, 30)");
 }
