@@ -172,7 +172,7 @@ impl Documents {
         std::mem::take(&mut self.has_copies)
     }
 
-    /// Makes the changes, one after the other. Those of one `gesture` are one step of undo.
+    /// Makes the changes, one after the other. They are one step of undo, with all of one `gesture`.
     ///
     /// # Errors
     ///
@@ -185,6 +185,8 @@ impl Documents {
     ) -> Result<(), String> {
         for edit in edits {
             let Some(document) = self.get_mut(which) else {
+        let version = self.get(which).map_or(0, Document::version);
+        let gesture = gesture.or(Some(u64::MAX - version));
                 return Ok(());
             };
             let text = edit

@@ -256,13 +256,11 @@ impl Studio {
                 Some(Edit::Set(place.field(name), written(value, &param.kind)))
             })
             .collect();
-        // One step of undo, also without a drag.
-        if let Some(documents) = &mut self.documents {
-            let gesture = Some(u64::MAX - documents.preset().version());
-            if let Err(error) = documents.apply(Which::Preset, &edits, gesture) {
-                self.tell(error);
-                return;
-            }
+        if let Some(documents) = &mut self.documents
+            && let Err(error) = documents.apply(Which::Preset, &edits, None)
+        {
+            self.tell(error);
+            return;
         }
         self.view.follow_preset();
         self.tell("the view is the preset's now");

@@ -295,3 +295,21 @@ fn opening_points_changes_nothing() {
     set_number(&mut harness, "style hairline point 3 longitude", 200.0);
     says(&harness, "(179.5, 30)");
 }
+
+#[test]
+fn a_mesh_is_of_a_file_or_of_a_shape() {
+    let mut harness = shown(Kind::Look, "(version: 1, layers: [])");
+    click(&mut harness, "add mesh");
+    open_all(&mut harness);
+    click(&mut harness, "mesh 1: mesh.obj shape");
+    click(&mut harness, "gear");
+    let meshes = |harness: &Harness<Pane>| {
+        let text = &harness.state().text;
+        text[text.find("meshes").unwrap()..].to_owned()
+    };
+    assert_eq!(meshes(&harness), "meshes: [(shape: gear)])");
+    open_all(&mut harness);
+    assert!(names(&harness).contains(&"open mesh 1: gear".to_owned()));
+    type_into(&mut harness, "mesh 1: gear file", "eyes.obj");
+    assert_eq!(meshes(&harness), "meshes: [(file: \"eyes.obj\")])");
+}
