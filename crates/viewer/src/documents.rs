@@ -253,17 +253,24 @@ impl Documents {
 
     /// Makes the change again that was taken back last. Whether there was one.
     pub fn redo(&mut self) -> bool {
-        let Some(last) = self.redo.iter().rposition(|text| self.is_open(*text)) else {
-            return false;
-        };
-        let text = self.redo.remove(last);
-        self.undo.push(text);
-        let done = self.texts.get_mut(&text).is_some_and(|(_, own)| own.redo());
+        let done = self.redo_step();
         self.follow_names();
         done
     }
 
-    /// Opens the style and script that the preset names now. Those that it named before are set aside.
+    fn redo_step(&mut self) -> bool {
+        while let Some(last) = (self.redo.iter()).rposition(|text| self.is_open(*text)) {
+            let text = self.redo.remove(last);
+            // A text that was taken from the disk since has none.
+            if self.texts.get_mut(&text).is_some_and(|(_, own)| own.redo()) {
+                self.undo.push(text);
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Opens the style and script that the preset, or where it says nothing its base, names now. Those that it named before are set aside.
     pub fn follow_names(&mut self) {
         for (which, section, ending) in [
             (Which::Style, "hair", ".style.ron"),
