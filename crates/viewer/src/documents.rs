@@ -306,8 +306,10 @@ impl Documents {
         let is_kept = |(_, document): &(Which, Document)| {
             has_steps(document) || document.was_edited() || document.recovered().is_some()
         };
-        if !self.texts.get(&id).is_some_and(is_kept) {
-            self.texts.remove(&id);
+        if !self.texts.get(&id).is_some_and(is_kept)
+            && let Some((_, document)) = self.texts.remove(&id)
+        {
+            document.close();
         }
     }
 

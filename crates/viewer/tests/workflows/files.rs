@@ -7,6 +7,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use std::path::Path;
 use viewer::app::App;
+use viewer::documents::Which::{Preset, Style};
 use viewer::studio::Tool;
 
 #[test]
@@ -126,7 +127,6 @@ fn changes_outlive_a_crash() {
 
 #[test]
 fn copies_are_offered_of_styles_that_are_opened_later() {
-    use viewer::documents::Which::{Preset, Style};
     let looks = Looks::new();
     let path = looks.path("other.style.ron");
     let own = looks.read("bob.style.ron");
@@ -248,4 +248,25 @@ fn what_the_preset_builds_on_is_read_anew() {
         app.studio.sections.camera.yaw == 35.0
     });
     assert_eq!(harness.state().studio.sections.light.yaw, 50.0);
+}
+
+/// A style that was deleted when it was named, and isn't named any more, is missed by nobody, also later.
+#[test]
+fn a_deleted_style_that_is_not_named_leaves_no_copy() {
+    let looks = Looks::new();
+    let style = looks.read("bob.style.ron");
+    std::fs::write(looks.path("other.style.ron"), &style).unwrap();
+    let copies = looks.path("copies");
+    let recovery = document::Recovery::in_folder(&copies);
+    let size = Vec2::new(1280.0, 800.0);
+    let mut harness = recovering(Some(looks.path("look.ron")), size, recovery);
+    harness.run_steps(3);
+    std::fs::remove_file(looks.path("bob.style.ron")).unwrap();
+    let count = move || std::fs::read_dir(&copies).map_or(0, Iterator::count);
+    wait_for(&mut harness, "the copy", |_| count() > 0);
+    let renamed = LOOK.replace("bob.style", "other.style");
+    harness.state_mut().studio.write(Preset, renamed, None);
+    harness.run_steps(2);
+    harness.state_mut().studio.save();
+    assert_eq!(count(), 0);
 }
