@@ -207,26 +207,28 @@ impl Studio {
         (at.elapsed() < TOLD_FOR).then_some(sentence)
     }
 
-    /// Changes a text. While the pointer drags something, its changes are one step of undo.
-    pub fn change(&mut self, which: Which, edits: &[Edit]) {
+    /// Changes a text. While the pointer drags something, its changes are one step of undo. Whether it could; else why not is told.
+    pub fn change(&mut self, which: Which, edits: &[Edit]) -> bool {
         if edits.is_empty() {
-            return;
+            return true;
         }
         let is_held = |input: &InputState| input.pointer.any_down() || input.pointer.any_released();
         let gesture = self.ctx.input(is_held).then_some(self.presses);
         self.is_dragging |= gesture.is_some();
         let Some(documents) = &mut self.documents else {
-            return;
+            return false;
         };
         if let Err(error) = documents.apply(which, edits, gesture) {
             self.tell(error);
+            return false;
         }
+        true
     }
 
-    /// Sets a parameter of a section of the preset.
-    pub fn set(&mut self, section: &str, param: &str, value: &Value, kind: &ParamKind) {
+    /// Sets a parameter of a section of the preset. Whether it could; else why not is told.
+    pub fn set(&mut self, section: &str, param: &str, value: &Value, kind: &ParamKind) -> bool {
         let place = Place::top().field(section).field(param);
-        self.change(Which::Preset, &[Edit::Set(place, written(value, kind))]);
+        self.change(Which::Preset, &[Edit::Set(place, written(value, kind))])
     }
 
     /// The camera that is looked from.

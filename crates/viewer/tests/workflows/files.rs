@@ -7,7 +7,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use std::path::Path;
 use viewer::app::App;
-use viewer::documents::Which::{Preset, Style};
+use viewer::documents::Which::{Motion, Preset, Style};
 use viewer::studio::Tool;
 
 #[test]
@@ -90,6 +90,20 @@ fn files_are_dropped() {
         .take_file(Path::new("letter.docx"));
     harness.run_steps(2);
     harness.get_by_label_contains("can be dropped here");
+    for head in ["a.obj", "a.ply", "a.gltf", "a.glb", "a.vrm"] {
+        harness.state_mut().studio.take_file(&looks.path(head));
+        let is_head = format!("head: (shape: bust, file: \"{head}\")");
+        assert!(text(&harness).contains(&is_head), "{}", text(&harness));
+    }
+    // What can't be written into a text isn't told to be there.
+    let studio = &mut harness.state_mut().studio;
+    studio.write(Preset, LOOK.replace("],\n)", ""), None);
+    studio.take_file(&looks.path("other.motion.ron"));
+    let told = studio.told().unwrap();
+    assert!(
+        !told.contains("is now") && !told.ends_with(" now"),
+        "{told}"
+    );
 }
 
 #[test]
