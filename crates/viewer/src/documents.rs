@@ -1,4 +1,4 @@
-//! The texts that are edited: the preset, and the style and script that it names.
+//! The texts that are edited: the preset, and the style and script that it, or its base, names.
 
 use crate::edit::{Edit, Place};
 use document::{Conflict, DiskChange, Document, OpenError, Recovery, SaveError, Step};
@@ -35,6 +35,8 @@ impl Which {
 
 /// The most steps of undo that are kept, as a text keeps them.
 const MOST_STEPS: usize = 3000;
+/// The most presets that are looked at of a chain, each the base of the one before.
+const MOST_BASES: usize = 16;
 
 /// Which of all texts that were open since the preset is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -183,10 +185,10 @@ impl Documents {
         edits: &[Edit],
         gesture: Option<u64>,
     ) -> Result<(), String> {
-        for edit in edits {
-            let Some(document) = self.get_mut(which) else {
         let version = self.get(which).map_or(0, Document::version);
         let gesture = gesture.or(Some(u64::MAX - version));
+        for edit in edits {
+            let Some(document) = self.get_mut(which) else {
                 return Ok(());
             };
             let text = edit
@@ -277,9 +279,12 @@ impl Documents {
             (Which::Motion, "motion", ".ron"),
         ] {
             let place = Place::top().field(section).field("file");
-            let named = edit::get(self.preset().text(), &place.steps()).and_then(unquoted);
-            let named = named.filter(|name| name.ends_with(ending));
-            let path = named.map(|name| self.folder().join(name));
+            let named = self.chain().find_map(|(folder, text)| {
+                let said = edit::get(&text, &place.steps())?;
+                let name = unquoted(said).filter(|name| name.ends_with(ending));
+                Some(name.map(|name| folder.join(name)))
+            });
+            let path = named.flatten();
             let there = self.get(which);
             if there.map(Document::path) == path.as_deref() && there.is_some() {
                 continue;
@@ -295,6 +300,24 @@ impl Documents {
                 self.troubles.insert(which, error.to_string());
             }
         }
+    }
+
+    /// The preset, its base, that one's base and so on, each with its folder and text, as far as they can be read.
+    fn chain(&self) -> impl Iterator<Item = (PathBuf, Arc<str>)> {
+        let preset = (self.folder(), self.preset().text().clone());
+        let below = |(folder, text): &(PathBuf, Arc<str>)| {
+            let path = base_of(folder, text)?;
+            let text = hair_io::read_text(&path, hair_io::MOST_OF_TEXT).ok()?;
+            Some((path.parent()?.to_owned(), text.into()))
+        };
+        std::iter::successors(Some(preset), below).take(1 + MOST_BASES)
+    }
+
+    /// The files that the preset builds on, also one that can't be read.
+    #[must_use]
+    pub fn bases(&self) -> Vec<PathBuf> {
+        let base = |(folder, text): (PathBuf, Arc<str>)| base_of(&folder, &text);
+        self.chain().filter_map(base).collect()
     }
 
     /// A text that is no longer named: one with nothing to be kept is closed.
@@ -432,6 +455,12 @@ impl Documents {
             document.keep_recovery_copy();
         }
     }
+}
+
+/// The base that the text of a preset in `folder` names.
+fn base_of(folder: &Path, text: &str) -> Option<PathBuf> {
+    let name = unquoted(edit::get(text, &Place::top().field("base").steps())?)?;
+    Some(folder.join(name))
 }
 
 /// The text between a RON text's quotes, where it has no escapes.

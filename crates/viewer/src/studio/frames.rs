@@ -52,6 +52,10 @@ impl Studio {
         }
         if self.files.has_changed() {
             self.files_changed += 1;
+            // A base may name others.
+            if let Some(documents) = &mut self.documents {
+                documents.follow_names();
+            }
         }
         let told = self.documents.as_mut().map(Documents::poll);
         for sentence in told.into_iter().flatten() {

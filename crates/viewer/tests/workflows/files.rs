@@ -264,6 +264,51 @@ fn what_the_preset_builds_on_is_read_anew() {
     assert_eq!(harness.state().studio.sections.light.yaw, 50.0);
 }
 
+/// A look that says only what is otherwise than in `looks/under.ron`, with hair and script beside that.
+fn based(looks: &Looks) {
+    std::fs::create_dir(looks.path("looks")).unwrap();
+    for name in ["bob.style.ron", "turn.motion.ron"] {
+        std::fs::rename(looks.path(name), looks.path("looks").join(name)).unwrap();
+    }
+    std::fs::write(looks.path("looks/under.ron"), LOOK).unwrap();
+    let look = "(version: 1, base: \"looks/under.ron\", light: (yaw: 50))";
+    std::fs::write(looks.path("look.ron"), look).unwrap();
+}
+
+#[test]
+fn style_and_script_of_the_base_are_changed() {
+    let looks = Looks::new();
+    based(&looks);
+    let mut harness = viewer(&looks);
+    wait_for_picture(&mut harness);
+    let studio = &mut harness.state_mut().studio;
+    assert_eq!(studio.track.spans.len(), 1);
+    let documents = studio.documents.as_ref().unwrap();
+    let style = documents.get(Style).unwrap().text().to_string();
+    let script = documents.get(Motion).unwrap().path();
+    assert_eq!(script, looks.path("looks/turn.motion.ron"));
+    let before = studio.pixels(0).unwrap().to_vec();
+    let more = style.replacen("count: 7", "count: 17", 1);
+    studio.write(Style, more, None);
+    wait_for(&mut harness, "other hair", |app| {
+        app.studio.is_sharp && app.studio.pixels(0).is_some_and(|pixels| pixels != before)
+    });
+    assert!(harness.state().studio.problems.is_empty());
+
+    // Another one that the base names from now on.
+    std::fs::copy(
+        looks.path("looks/turn.motion.ron"),
+        looks.path("looks/other.motion.ron"),
+    )
+    .unwrap();
+    let renamed = LOOK.replace("turn.motion", "other.motion");
+    std::fs::write(looks.path("looks/under.ron"), renamed).unwrap();
+    wait_for(&mut harness, "the other script", |app| {
+        let documents = app.studio.documents.as_ref().unwrap();
+        documents.get(Motion).unwrap().name() == "other.motion.ron"
+    });
+}
+
 /// A style that was deleted when it was named, and isn't named any more, is missed by nobody, also later.
 #[test]
 fn a_deleted_style_that_is_not_named_leaves_no_copy() {
