@@ -95,6 +95,8 @@ pub struct Studio {
     pub is_sharp: bool,
     /// What is wrong.
     pub problems: Vec<Problem>,
+    /// Whether the picture is still of the last look without mistakes.
+    pub is_outdated: bool,
     /// The last thing that was done, in a sentence, and when.
     told: Option<(String, Instant)>,
     /// What is looked for.
@@ -165,6 +167,7 @@ impl Studio {
             shown: [None, None],
             is_sharp: false,
             problems: Vec::new(),
+            is_outdated: false,
             told: None,
             search: String::new(),
             focuses_search: false,

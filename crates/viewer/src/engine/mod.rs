@@ -140,6 +140,8 @@ pub struct Answer {
     pub pictures: Vec<Option<Drawn>>,
     /// What is wrong with the looks. A look with mistakes goes on showing its last good state.
     pub problems: Vec<Problem>,
+    /// Whether that is so of the first look.
+    pub is_outdated: bool,
     /// Whether it is as sharp as it gets.
     pub is_final: bool,
 }
@@ -268,7 +270,9 @@ impl<'r> Drawer<'r> {
                 opened: wish.opened,
                 pictures: Vec::new(),
                 problems: vec![Problem::Failed(message.to_owned())],
+                is_outdated: true,
                 is_final: true,
+                ..Answer::default()
             })
         })
     }
@@ -287,12 +291,16 @@ impl<'r> Drawer<'r> {
             .resize_with(wish.looks.len(), || Slot::new(self.registry));
         let mut camera = wish.camera.clone();
         let begun = Instant::now();
-        for (look, slot) in wish.looks.iter().zip(&mut self.slots) {
+        for (index, (look, slot)) in wish.looks.iter().zip(&mut self.slots).enumerate() {
             if !is_rough && wishes.has_newer() {
                 return None;
             }
             let started = Instant::now();
-            answer.problems.extend(slot.follow(look));
+            let problems = slot.follow(look);
+            if index == 0 {
+                answer.is_outdated = !problems.is_empty();
+            }
+            answer.problems.extend(problems);
             let load = started.elapsed().as_secs_f64() * 1e3;
             let Some(facts) = slot.facts() else {
                 answer.pictures.push(None);
@@ -326,6 +334,7 @@ impl<'r> Drawer<'r> {
                 }
                 Err(problem) => {
                     answer.problems.push(problem);
+                    answer.is_outdated |= index == 0;
                     answer.pictures.push(None);
                 }
             }

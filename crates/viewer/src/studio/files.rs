@@ -27,6 +27,7 @@ impl Studio {
                 }
                 self.shown = [None, None];
                 self.problems.clear();
+                self.is_outdated = false;
                 self.sections = stage::Sections::default();
                 self.inherited = Inherited::default();
                 self.opened += 1;

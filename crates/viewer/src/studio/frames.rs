@@ -68,6 +68,7 @@ impl Studio {
         if let Some(answer) = answer.filter(|answer| answer.opened == self.opened) {
             self.is_sharp = answer.is_final;
             self.problems = answer.problems;
+            self.is_outdated = answer.is_outdated;
             for (index, drawn) in answer.pictures.into_iter().enumerate().take(2) {
                 if let Some(drawn) = drawn {
                     self.show(index, drawn);
