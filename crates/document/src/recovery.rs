@@ -155,7 +155,13 @@ fn lock_of_dead(copy: &Path) -> Option<Option<File>> {
 fn first_line(path: &Path) -> String {
     let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     // One that was deleted is called as it was while it was there.
-    let beside = || Some(fs::canonicalize(whole.parent()?).ok()?.join(whole.file_name()?));
+    let beside = || {
+        Some(
+            fs::canonicalize(whole.parent()?)
+                .ok()?
+                .join(whole.file_name()?),
+        )
+    };
     let place = fs::canonicalize(path).ok().or_else(beside).unwrap_or(whole);
     format!("{BEGINNING}{place:?}\n")
 }

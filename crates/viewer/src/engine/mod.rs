@@ -104,8 +104,6 @@ pub struct Facts {
     pub strands: usize,
     /// Sentences about what was guessed of its files.
     pub notes: Vec<String>,
-    /// The files that it is read from.
-    pub files: Vec<PathBuf>,
     /// Names of its layers, in the preset's order.
     pub layers: Vec<String>,
 }
@@ -142,6 +140,8 @@ pub struct Answer {
     pub problems: Vec<Problem>,
     /// Whether that is so of the first look.
     pub is_outdated: bool,
+    /// The files that the first look is read from, as far as its text can be read.
+    pub files: Vec<PathBuf>,
     /// Whether it is as sharp as it gets.
     pub is_final: bool,
 }
@@ -264,6 +264,7 @@ impl<'r> Drawer<'r> {
     fn draw(&mut self, wish: &Wish, is_rough: bool, wishes: &mut Wishes) -> Option<Answer> {
         let drawn = catch_unwind(AssertUnwindSafe(|| self.draw_looks(wish, is_rough, wishes)));
         drawn.unwrap_or_else(|_| {
+            let files = self.slots.first().map(|slot| slot.files().to_vec());
             *self = Self::new(self.registry);
             let message = "drawing failed by a bug, which is told where the viewer was started";
             Some(Answer {
@@ -271,8 +272,8 @@ impl<'r> Drawer<'r> {
                 pictures: Vec::new(),
                 problems: vec![Problem::Failed(message.to_owned())],
                 is_outdated: true,
+                files: files.unwrap_or_default(),
                 is_final: true,
-                ..Answer::default()
             })
         })
     }
@@ -299,6 +300,7 @@ impl<'r> Drawer<'r> {
             let problems = slot.follow(look);
             if index == 0 {
                 answer.is_outdated = !problems.is_empty();
+                answer.files = slot.files().to_vec();
             }
             answer.problems.extend(problems);
             let load = started.elapsed().as_secs_f64() * 1e3;

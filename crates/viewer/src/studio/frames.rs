@@ -9,7 +9,7 @@ use crate::prompt::Prompt;
 use crate::transport::SETTLING_S;
 use eframe::egui::{ColorImage, TextureOptions};
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 impl Studio {
@@ -69,6 +69,7 @@ impl Studio {
             self.is_sharp = answer.is_final;
             self.problems = answer.problems;
             self.is_outdated = answer.is_outdated;
+            self.watch_files(answer.files);
             for (index, drawn) in answer.pictures.into_iter().enumerate().take(2) {
                 if let Some(drawn) = drawn {
                     self.show(index, drawn);
@@ -122,15 +123,21 @@ impl Studio {
             self.prompt = Some(Prompt::Recover);
             self.ctx.request_repaint();
         }
-        if documents.wants_care() {
+        if documents.wants_care() || self.files.wants_care() {
             self.ctx.request_repaint_after(HOUSEKEEPING);
         }
     }
 
-    fn show(&mut self, index: usize, drawn: Drawn) {
-        if index == 0 {
-            self.files.watch(&drawn.facts.files);
+    /// Watches what the look is read from, whether it could be drawn or not: somebody may mend it.
+    fn watch_files(&mut self, mut files: Vec<PathBuf>) {
+        if self.is_outdated {
+            // It may be a base that can't be read.
+            files.extend(self.documents.iter().flat_map(Documents::bases));
         }
+        self.files.watch(&files);
+    }
+
+    fn show(&mut self, index: usize, drawn: Drawn) {
         let size = drawn.size_px.map(|side| side as usize);
         let image = ColorImage::from_rgba_unmultiplied(size, &drawn.pixels);
         if let Some(shown) = &mut self.shown[index] {

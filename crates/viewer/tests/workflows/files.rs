@@ -309,6 +309,31 @@ fn style_and_script_of_the_base_are_changed() {
     });
 }
 
+#[test]
+fn a_first_look_is_drawn_once_its_files_are_mended() {
+    let looks = Looks::new();
+    based(&looks);
+    let hair = "(version: 1, strands: [(size: 14, mirror: true, points: [(0.02, 1.619, 0), (0.058, 1.6, 0), (0.083, 1.55, 0.01)])])";
+    let under = LOOK.replace("bob.style.ron", "hair/few.strands.ron");
+    std::fs::write(looks.path("looks/under.ron"), "(version: 1,").unwrap();
+    let mut harness = viewer(&looks);
+    let is_told = |message: &'static str| {
+        move |app: &App| {
+            let problems = &app.studio.problems;
+            problems.iter().any(|p| p.to_string().contains(message))
+        }
+    };
+    wait_for(&mut harness, "the mistake", is_told("under.ron"));
+    std::fs::write(looks.path("looks/under.ron"), &under).unwrap();
+    wait_for(&mut harness, "the next", is_told("few.strands.ron"));
+    assert!(harness.state().studio.shown[0].is_none());
+    // Nor is the folder of its hair there before.
+    std::fs::create_dir(looks.path("looks/hair")).unwrap();
+    std::fs::write(looks.path("looks/hair/few.strands.ron"), hair).unwrap();
+    wait_for_picture(&mut harness);
+    assert!(harness.state().studio.problems.is_empty());
+}
+
 /// A style that was deleted when it was named, and isn't named any more, is missed by nobody, also later.
 #[test]
 fn a_deleted_style_that_is_not_named_leaves_no_copy() {
