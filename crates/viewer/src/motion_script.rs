@@ -6,7 +6,7 @@ use effects::preset::edit;
 /// Longer than any sequence: a move or wind without an end.
 const FOREVER_S: f32 = 1e5;
 /// The latest end of a time line, seconds: hair is simulated from the beginning to wherever it is looked at.
-const LATEST_END_S: f32 = 600.0;
+pub const LATEST_END_S: f32 = 600.0;
 
 /// Something that a script does for a while.
 #[derive(Clone, Debug, PartialEq)]

@@ -100,6 +100,8 @@ pub struct Facts {
     pub samples: u32,
     /// The preset's own view.
     pub camera: CameraSection,
+    /// The length of the longest animation that moves a head, seconds; 0 without any.
+    pub animation_s: f32,
     /// Strands in all.
     pub strands: usize,
     /// Sentences about what was guessed of its files.

@@ -133,6 +133,7 @@ impl<'r> Slot<'r> {
             fps: section.fps,
             samples: section.samples,
             camera: preset.sections.camera.clone(),
+            animation_s: scene.animation_s(),
             strands: scene.strand_count(),
             notes: scene.notes().to_vec(),
             layers,

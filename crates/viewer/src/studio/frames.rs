@@ -4,7 +4,7 @@ use super::{HOUSEKEEPING, Shown, Studio};
 use crate::documents::{Documents, Which};
 use crate::engine::{Drawn, Look, Wish};
 use crate::inherited::Inherited;
-use crate::motion_script::MotionTrack;
+use crate::motion_script::{LATEST_END_S, MotionTrack};
 use crate::prompt::Prompt;
 use crate::transport::SETTLING_S;
 use eframe::egui::{ColorImage, TextureOptions};
@@ -76,6 +76,7 @@ impl Studio {
                 }
             }
         }
+        self.follow_end();
         self.transport.tick(passed_s);
         let step_s = 1.0 / self.transport.fps();
         self.grip.advance_to(self.transport.shown_s(), step_s);
@@ -202,7 +203,16 @@ impl Studio {
         self.track = script.map_or_else(MotionTrack::default, |script| {
             MotionTrack::read(script.text())
         });
-        let end = self.track.end_s(SETTLING_S);
-        self.transport.follow(self.sections.scene.fps, end);
+    }
+
+    /// Lets time go as far as the script does, or an animation beside it that is longer.
+    fn follow_end(&mut self) {
+        let shown = self.shown[0].as_ref();
+        let animation_s = shown.map_or(0.0, |shown| shown.drawn.facts.animation_s);
+        let end_s = match self.track.end_s(SETTLING_S) {
+            0.0 => 0.0,
+            script_s => script_s.max(animation_s.min(LATEST_END_S)),
+        };
+        self.transport.follow(self.sections.scene.fps, end_s);
     }
 }
