@@ -176,3 +176,21 @@ fn write_back(looks: &Looks, harness: &mut Harness<App>, theirs: &str) {
         **documents.preset().text() == *theirs
     });
 }
+
+#[test]
+fn what_is_changed_at_once_is_taken_back_at_once() {
+    use viewer::edit::{Edit, Place};
+    let looks = Looks::new();
+    let mut harness = viewer(&looks);
+    harness.run_steps(3);
+    let light = |name: &str| Place::top().field("light").field(name);
+    let edits = [
+        Edit::Set(light("yaw"), "10".to_owned()),
+        Edit::Remove(light("pitch")),
+    ];
+    let studio = &mut harness.state_mut().studio;
+    assert!(studio.change(Which::Preset, &edits));
+    assert!(texts(&harness)[0].contains("light: (yaw: 10)"));
+    undo(&mut harness);
+    assert_eq!(texts(&harness)[0], LOOK);
+}
