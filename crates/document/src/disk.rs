@@ -30,9 +30,7 @@ impl Seen {
     pub fn read(&mut self, path: &Path) -> Disk {
         match self.read_file(path) {
             Ok((text, marked)) => Disk::Text(text, marked),
-            Err(ReadError::Open { source, .. }) if source.kind() == ErrorKind::NotFound => {
-                Disk::Gone
-            }
+            Err(error) if is_gone(&error) => Disk::Gone,
             Err(error) => Disk::Unreadable(error),
         }
     }
@@ -59,6 +57,11 @@ impl Seen {
     pub fn is_outdated(&self, path: &Path) -> bool {
         self.stamp != stamp(path)
     }
+}
+
+/// Whether a file could not be read because there is none.
+pub(crate) fn is_gone(error: &ReadError) -> bool {
+    matches!(error, ReadError::Open { source, .. } if source.kind() == ErrorKind::NotFound)
 }
 
 fn stamp(path: &Path) -> Option<(Option<SystemTime>, u64)> {

@@ -119,20 +119,26 @@ pub enum SaveError {
 }
 
 impl Document {
-    /// Opens a text file of at most [`hair_io::MOST_OF_TEXT`] bytes, watches it, and looks for what a crash has left of it.
+    /// Opens a text file of at most [`hair_io::MOST_OF_TEXT`] bytes, watches it, and looks for what a crash has left of it. Of a
+    /// file that is no longer there the newest copy is opened, as it was before the crash: in conflict with the disk.
     ///
     /// # Errors
     ///
-    /// When it cannot be read.
+    /// When it cannot be read, or is no longer there and no crash has left anything of it.
     pub fn open(path: &Path, recovery: &Recovery) -> Result<Self, OpenError> {
         // Watched first: what happens between is told.
         let watch = Watch::new(path);
         let mut seen = Seen::default();
-        let (text, marked) = seen.read_file(path)?;
-        let recovered = recovery.find(path, &text);
-        Ok(Self {
+        let read = seen.read_file(path);
+        let base = read.as_ref().ok().map(|(text, _)| text.clone());
+        let recovered = recovery.find(path, base.as_deref());
+        let (text, marked) = match (read, recovered.first()) {
+            (Err(error), Some(newest)) if disk::is_gone(&error) => (newest.text.clone(), false),
+            (read, _) => read?,
+        };
+        let mut document = Self {
             path: path.to_owned(),
-            base: Some(text.clone()),
+            base,
             text,
             version: 0,
             marked,
@@ -145,7 +151,13 @@ impl Document {
             copied: None,
             copy_error: None,
             recovered,
-        })
+        };
+        if document.base.is_none() {
+            document.conflict = Some(Conflict::Deleted);
+            let newest = document.recovered.remove(0);
+            document.replace_copy(newest);
+        }
+        Ok(document)
     }
 
     /// The file, as it was named.
@@ -443,12 +455,16 @@ impl Document {
         }
         let recovered = self.recovered.remove(0);
         let step = self.edit(recovered.text.to_string(), None);
-        // Not before this process has a copy of its own.
+        self.replace_copy(recovered);
+        step
+    }
+
+    /// Removes a copy whose text is the document's now, but not before this process has a copy of its own.
+    fn replace_copy(&mut self, recovered: Recovered) {
         self.keep_recovery_copy();
         if self.copy.is_some() && self.copy_error.is_none() {
             recovered.remove();
         }
-        step
     }
 
     /// Removes the copy; the next older one is [`Document::recovered`] from then on.

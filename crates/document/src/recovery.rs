@@ -87,8 +87,8 @@ impl Recovery {
         self.folder.as_deref()
     }
 
-    /// The copies of a file whose processes are gone, the newest first. Those that have its text are removed.
-    pub(crate) fn find(&self, path: &Path, text: &str) -> Vec<Recovered> {
+    /// The copies of a file whose processes are gone, the newest first. Those that have its text, where it has one, are removed.
+    pub(crate) fn find(&self, path: &Path, text: Option<&str>) -> Vec<Recovered> {
         let mut found = Vec::new();
         let Some(entries) = self.folder().and_then(|folder| fs::read_dir(folder).ok()) else {
             return found;
@@ -112,7 +112,7 @@ impl Recovery {
                 copy,
                 text: left.into(),
             };
-            if *recovered.text == *text {
+            if text.is_some_and(|text| *recovered.text == *text) {
                 recovered.remove();
             } else {
                 found.push(recovered);
@@ -153,8 +153,16 @@ fn lock_of_dead(copy: &Path) -> Option<Option<File>> {
 
 /// What a copy of the file begins with: its one path, however it is spelled, on one line.
 fn first_line(path: &Path) -> String {
-    let place = fs::canonicalize(path).or_else(|_| std::path::absolute(path));
-    let place = place.unwrap_or_else(|_| path.to_owned());
+    let whole = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    // One that was deleted is called as it was while it was there.
+    let beside = || {
+        Some(
+            fs::canonicalize(whole.parent()?)
+                .ok()?
+                .join(whole.file_name()?),
+        )
+    };
+    let place = fs::canonicalize(path).ok().or_else(beside).unwrap_or(whole);
     format!("{BEGINNING}{place:?}\n")
 }
 

@@ -200,6 +200,15 @@ impl Scene {
             .try_for_each(|hair| bake::check_reaches(hair, self.fps(), time))
     }
 
+    /// The length of the longest animation that moves a head, seconds; 0 without any.
+    #[must_use]
+    pub fn animation_s(&self) -> f32 {
+        let below = (self.objects.iter()).filter_map(|object| object.script().below.as_ref());
+        below
+            .map(|below| below.length_s() as f32)
+            .fold(0.0, f32::max)
+    }
+
     /// Sentences for the user: what was guessed about the files.
     #[must_use]
     pub fn notes(&self) -> &[String] {

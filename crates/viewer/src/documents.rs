@@ -1,4 +1,4 @@
-//! The texts that are edited: the preset, and the style and script that it names.
+//! The texts that are edited: the preset, and the style and script that it, or its base, names.
 
 use crate::edit::{Edit, Place};
 use document::{Conflict, DiskChange, Document, OpenError, Recovery, SaveError, Step};
@@ -35,6 +35,8 @@ impl Which {
 
 /// The most steps of undo that are kept, as a text keeps them.
 const MOST_STEPS: usize = 3000;
+/// The most presets that are looked at of a chain, each the base of the one before.
+const MOST_BASES: usize = 16;
 
 /// Which of all texts that were open since the preset is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -172,7 +174,7 @@ impl Documents {
         std::mem::take(&mut self.has_copies)
     }
 
-    /// Makes the changes, one after the other. Those of one `gesture` are one step of undo.
+    /// Makes the changes, one after the other. They are one step of undo, with all of one `gesture`.
     ///
     /// # Errors
     ///
@@ -183,6 +185,8 @@ impl Documents {
         edits: &[Edit],
         gesture: Option<u64>,
     ) -> Result<(), String> {
+        let version = self.get(which).map_or(0, Document::version);
+        let gesture = gesture.or(Some(u64::MAX - version));
         for edit in edits {
             let Some(document) = self.get_mut(which) else {
                 return Ok(());
@@ -251,26 +255,36 @@ impl Documents {
 
     /// Makes the change again that was taken back last. Whether there was one.
     pub fn redo(&mut self) -> bool {
-        let Some(last) = self.redo.iter().rposition(|text| self.is_open(*text)) else {
-            return false;
-        };
-        let text = self.redo.remove(last);
-        self.undo.push(text);
-        let done = self.texts.get_mut(&text).is_some_and(|(_, own)| own.redo());
+        let done = self.redo_step();
         self.follow_names();
         done
     }
 
-    /// Opens the style and script that the preset names now. Those that it named before are set aside.
+    fn redo_step(&mut self) -> bool {
+        while let Some(last) = (self.redo.iter()).rposition(|text| self.is_open(*text)) {
+            let text = self.redo.remove(last);
+            // A text that was taken from the disk since has none.
+            if self.texts.get_mut(&text).is_some_and(|(_, own)| own.redo()) {
+                self.undo.push(text);
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Opens the style and script that the preset, or where it says nothing its base, names now. Those that it named before are set aside.
     pub fn follow_names(&mut self) {
         for (which, section, ending) in [
             (Which::Style, "hair", ".style.ron"),
             (Which::Motion, "motion", ".ron"),
         ] {
             let place = Place::top().field(section).field("file");
-            let named = edit::get(self.preset().text(), &place.steps()).and_then(unquoted);
-            let named = named.filter(|name| name.ends_with(ending));
-            let path = named.map(|name| self.folder().join(name));
+            let named = self.chain().find_map(|(folder, text)| {
+                let said = edit::get(&text, &place.steps())?;
+                let name = unquoted(said).filter(|name| name.ends_with(ending));
+                Some(name.map(|name| folder.join(name)))
+            });
+            let path = named.flatten();
             let there = self.get(which);
             if there.map(Document::path) == path.as_deref() && there.is_some() {
                 continue;
@@ -288,6 +302,24 @@ impl Documents {
         }
     }
 
+    /// The preset, its base, that one's base and so on, each with its folder and text, as far as they can be read.
+    fn chain(&self) -> impl Iterator<Item = (PathBuf, Arc<str>)> {
+        let preset = (self.folder(), self.preset().text().clone());
+        let below = |(folder, text): &(PathBuf, Arc<str>)| {
+            let path = base_of(folder, text)?;
+            let text = hair_io::read_text(&path, hair_io::MOST_OF_TEXT).ok()?;
+            Some((path.parent()?.to_owned(), text.into()))
+        };
+        std::iter::successors(Some(preset), below).take(1 + MOST_BASES)
+    }
+
+    /// The files that the preset builds on, also one that can't be read.
+    #[must_use]
+    pub fn bases(&self) -> Vec<PathBuf> {
+        let base = |(folder, text): (PathBuf, Arc<str>)| base_of(&folder, &text);
+        self.chain().filter_map(base).collect()
+    }
+
     /// A text that is no longer named: one with nothing to be kept is closed.
     fn set_aside(&mut self, which: Which) {
         let Some(id) = self.open.remove(&which) else {
@@ -297,8 +329,10 @@ impl Documents {
         let is_kept = |(_, document): &(Which, Document)| {
             has_steps(document) || document.was_edited() || document.recovered().is_some()
         };
-        if !self.texts.get(&id).is_some_and(is_kept) {
-            self.texts.remove(&id);
+        if !self.texts.get(&id).is_some_and(is_kept)
+            && let Some((_, document)) = self.texts.remove(&id)
+        {
+            document.close();
         }
     }
 
@@ -421,6 +455,12 @@ impl Documents {
             document.keep_recovery_copy();
         }
     }
+}
+
+/// The base that the text of a preset in `folder` names.
+fn base_of(folder: &Path, text: &str) -> Option<PathBuf> {
+    let name = unquoted(edit::get(text, &Place::top().field("base").steps())?)?;
+    Some(folder.join(name))
 }
 
 /// The text between a RON text's quotes, where it has no escapes.

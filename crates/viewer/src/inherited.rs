@@ -76,6 +76,8 @@ impl InheritedLayer {
             ("units", layer.units.name().to_owned()),
         ];
         own.extend(layer.zones.as_deref().map(|zones| ("zones", text(zones))));
+        own.extend(layer.on.as_deref().map(|on| ("on", text(on))));
+        own.push(("through_hair", layer.through_hair.to_string()));
         if let Some(clip) = &layer.clip {
             own.extend([("clip", text(clip)), ("reach", layer.reach.to_string())]);
         }

@@ -6,12 +6,12 @@ use effects::preset::edit;
 /// Longer than any sequence: a move or wind without an end.
 const FOREVER_S: f32 = 1e5;
 /// The latest end of a time line, seconds: hair is simulated from the beginning to wherever it is looked at.
-const LATEST_END_S: f32 = 600.0;
+pub const LATEST_END_S: f32 = 600.0;
 
 /// Something that a script does for a while.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Span {
-    /// What: `turn`, `wind`, `key`, `shape`.
+    /// What: `turn`, `wind`, `key`, `shape`, or the name of a body.
     pub name: String,
     /// The list of the script, and the number in it.
     pub list: &'static str,
@@ -42,16 +42,18 @@ impl MotionTrack {
             ("winds", "start", "wind"),
             ("keys", "time", "key"),
             ("shapes", "time", "shape"),
+            ("body_keys", "time", "body"),
         ] {
             let place = Place::top().field(list);
             for index in 0..edit::items(text, &place.steps()).len() {
                 let item = place.item(index);
                 let number = |field: &str| number(text, &item.field(field));
                 let default_length = if list == "moves" { 1.0 } else { FOREVER_S };
-                let own_name = edit::get(text, &item.field("move").steps());
+                let said = |field: &str| edit::get(text, &item.field(field).steps());
                 spans.push(Span {
                     name: match list {
-                        "moves" => own_name.unwrap_or("turn").to_owned(),
+                        "moves" => said("move").unwrap_or("turn").to_owned(),
+                        "body_keys" => said("body").unwrap_or(name).trim_matches('"').to_owned(),
                         _ => name.to_owned(),
                     },
                     list,
@@ -121,6 +123,11 @@ mod tests {
         assert_eq!(track.end_s(2.0), 6.0);
         assert_eq!(MotionTrack::read("(version: 1, period: 3)").end_s(2.0), 3.0);
         assert_eq!(MotionTrack::read("(version: 1").end_s(2.0), 0.0);
+        let bodies = MotionTrack::read(
+            "(moves: [(length: 2)], body_keys: [(body: \"hand\", time: 1), (body: \"hand\", time: 9)])",
+        );
+        assert_eq!(bodies.end_s(2.0), 11.0);
+        assert_eq!(bodies.spans[2].name, "hand");
         let far = MotionTrack::read("(version: 1, moves: [(start: 600000)])");
         assert_eq!(far.end_s(2.0), LATEST_END_S);
     }

@@ -43,7 +43,7 @@ pub fn problems(ui: &mut Ui, studio: &mut Studio) {
                 );
             }
         });
-    if !studio.problems.is_empty() && studio.shown[0].is_some() {
+    if studio.is_outdated && studio.shown[0].is_some() {
         ui.weak("The picture shows the last look without mistakes.");
     }
 }

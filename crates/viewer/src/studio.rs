@@ -95,6 +95,8 @@ pub struct Studio {
     pub is_sharp: bool,
     /// What is wrong.
     pub problems: Vec<Problem>,
+    /// Whether the picture is still of the last look without mistakes.
+    pub is_outdated: bool,
     /// The last thing that was done, in a sentence, and when.
     told: Option<(String, Instant)>,
     /// What is looked for.
@@ -165,6 +167,7 @@ impl Studio {
             shown: [None, None],
             is_sharp: false,
             problems: Vec::new(),
+            is_outdated: false,
             told: None,
             search: String::new(),
             focuses_search: false,
@@ -207,26 +210,28 @@ impl Studio {
         (at.elapsed() < TOLD_FOR).then_some(sentence)
     }
 
-    /// Changes a text. While the pointer drags something, its changes are one step of undo.
-    pub fn change(&mut self, which: Which, edits: &[Edit]) {
+    /// Changes a text. While the pointer drags something, its changes are one step of undo. Whether it could; else why not is told.
+    pub fn change(&mut self, which: Which, edits: &[Edit]) -> bool {
         if edits.is_empty() {
-            return;
+            return true;
         }
         let is_held = |input: &InputState| input.pointer.any_down() || input.pointer.any_released();
         let gesture = self.ctx.input(is_held).then_some(self.presses);
         self.is_dragging |= gesture.is_some();
         let Some(documents) = &mut self.documents else {
-            return;
+            return false;
         };
         if let Err(error) = documents.apply(which, edits, gesture) {
             self.tell(error);
+            return false;
         }
+        true
     }
 
-    /// Sets a parameter of a section of the preset.
-    pub fn set(&mut self, section: &str, param: &str, value: &Value, kind: &ParamKind) {
+    /// Sets a parameter of a section of the preset. Whether it could; else why not is told.
+    pub fn set(&mut self, section: &str, param: &str, value: &Value, kind: &ParamKind) -> bool {
         let place = Place::top().field(section).field(param);
-        self.change(Which::Preset, &[Edit::Set(place, written(value, kind))]);
+        self.change(Which::Preset, &[Edit::Set(place, written(value, kind))])
     }
 
     /// The camera that is looked from.
@@ -256,13 +261,11 @@ impl Studio {
                 Some(Edit::Set(place.field(name), written(value, &param.kind)))
             })
             .collect();
-        // One step of undo, also without a drag.
-        if let Some(documents) = &mut self.documents {
-            let gesture = Some(u64::MAX - documents.preset().version());
-            if let Err(error) = documents.apply(Which::Preset, &edits, gesture) {
-                self.tell(error);
-                return;
-            }
+        if let Some(documents) = &mut self.documents
+            && let Err(error) = documents.apply(Which::Preset, &edits, None)
+        {
+            self.tell(error);
+            return;
         }
         self.view.follow_preset();
         self.tell("the view is the preset's now");

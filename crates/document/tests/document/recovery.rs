@@ -140,3 +140,48 @@ fn a_crash_loses_nothing() {
             .is_older_than_file
     );
 }
+
+/// A file that is deleted while it is open has its text nowhere else.
+#[test]
+fn a_crash_loses_no_file_that_was_deleted() {
+    let place = Place::new();
+    place.write("one");
+    let mut document = place.open_with_recovery();
+    fs::remove_file(place.file()).unwrap();
+    assert_eq!(wait(&mut document), DiskChange::Deleted);
+    document.keep_recovery_copy();
+    drop(document);
+
+    let mut document = place.open_with_recovery();
+    assert_eq!(
+        (&**document.text(), document.conflict()),
+        ("one", Some(&Conflict::Deleted))
+    );
+    assert!(document.is_changed() && document.recovered().is_none());
+    // It has a copy again, so that the next crash loses nothing either.
+    assert_eq!(place.copies(), 2);
+    assert_quiet(&mut document);
+    document.keep_mine();
+    document.save().unwrap();
+    assert_eq!((&*place.read(), place.copies()), ("one", 0));
+
+    fs::remove_file(place.file()).unwrap();
+    drop(document);
+    let opened = Document::open(&place.file(), &place.recovery());
+    assert!(matches!(opened, Err(OpenError::Read(_))));
+}
+
+#[test]
+#[cfg(unix)]
+fn copies_of_deleted_files_are_found_by_any_name_of_their_folder() {
+    let place = Place::new();
+    std::os::unix::fs::symlink(place.folder.path(), place.path("link")).unwrap();
+    place.write("one");
+    let mut document = place.open_with_recovery();
+    edit(&mut document, "two");
+    document.keep_recovery_copy();
+    drop(document);
+    fs::remove_file(place.file()).unwrap();
+    let document = Document::open(&place.path("link/look.ron"), &place.recovery()).unwrap();
+    assert_eq!(&**document.text(), "two");
+}

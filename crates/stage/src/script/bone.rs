@@ -61,15 +61,24 @@ impl Below {
         }
     }
 
+    /// The length of its animation, seconds.
+    pub fn length_s(&self) -> f64 {
+        match self {
+            Self::Bone(bone) => bone.motion.length(),
+            Self::Skeleton { skeleton, .. } => skeleton.length(),
+        }
+    }
+
     /// How the head jumps where it starts again; None where it doesn't repeat, or comes back to its start.
     pub fn jump(&self) -> Option<Jump> {
-        let (length_s, repeats) = match self {
-            Self::Bone(bone) => (bone.motion.length(), bone.repeats),
-            Self::Skeleton { skeleton, .. } => (skeleton.length(), skeleton.repeats()),
+        let repeats = match self {
+            Self::Bone(bone) => bone.repeats,
+            Self::Skeleton { skeleton, .. } => skeleton.repeats(),
         };
         if !repeats {
             return None;
         }
+        let length_s = self.length_s();
         let [(turn, moved, _), (last_turn, last_moved, _)] =
             [0.0, length_s * (1.0 - BEFORE_END)].map(|time| self.at(time));
         let jump = Jump {

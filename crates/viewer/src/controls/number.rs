@@ -252,12 +252,17 @@ pub(crate) fn drag_value(
     let drag_value = DragValue::new(&mut new)
         .speed(speed)
         .range(min..=max)
+        // What a file has stays until somebody changes it.
+        .clamp_existing_to_range(false)
         .update_while_editing(false)
         .min_size(vec2(width, ui.spacing().interact_size.y))
         .suffix(suffix)
         .custom_formatter(|number, _| (number as f32).to_string())
         .custom_parser(parse);
     let response = ui.add(drag_value).accessible_name(name);
+    if new != value {
+        new = new.clamp(min, max);
+    }
 
     let asked = ui.input(|input| {
         let requests = input.accesskit_action_requests(response.id, Action::SetValue);

@@ -100,12 +100,12 @@ pub struct Facts {
     pub samples: u32,
     /// The preset's own view.
     pub camera: CameraSection,
+    /// The length of the longest animation that moves a head, seconds; 0 without any.
+    pub animation_s: f32,
     /// Strands in all.
     pub strands: usize,
     /// Sentences about what was guessed of its files.
     pub notes: Vec<String>,
-    /// The files that it is read from.
-    pub files: Vec<PathBuf>,
     /// Names of its layers, in the preset's order.
     pub layers: Vec<String>,
 }
@@ -140,6 +140,10 @@ pub struct Answer {
     pub pictures: Vec<Option<Drawn>>,
     /// What is wrong with the looks. A look with mistakes goes on showing its last good state.
     pub problems: Vec<Problem>,
+    /// Whether that is so of the first look.
+    pub is_outdated: bool,
+    /// The files that the first look is read from, as far as its text can be read.
+    pub files: Vec<PathBuf>,
     /// Whether it is as sharp as it gets.
     pub is_final: bool,
 }
@@ -262,12 +266,15 @@ impl<'r> Drawer<'r> {
     fn draw(&mut self, wish: &Wish, is_rough: bool, wishes: &mut Wishes) -> Option<Answer> {
         let drawn = catch_unwind(AssertUnwindSafe(|| self.draw_looks(wish, is_rough, wishes)));
         drawn.unwrap_or_else(|_| {
+            let files = self.slots.first().map(|slot| slot.files().to_vec());
             *self = Self::new(self.registry);
             let message = "drawing failed by a bug, which is told where the viewer was started";
             Some(Answer {
                 opened: wish.opened,
                 pictures: Vec::new(),
                 problems: vec![Problem::Failed(message.to_owned())],
+                is_outdated: true,
+                files: files.unwrap_or_default(),
                 is_final: true,
             })
         })
@@ -287,12 +294,17 @@ impl<'r> Drawer<'r> {
             .resize_with(wish.looks.len(), || Slot::new(self.registry));
         let mut camera = wish.camera.clone();
         let begun = Instant::now();
-        for (look, slot) in wish.looks.iter().zip(&mut self.slots) {
+        for (index, (look, slot)) in wish.looks.iter().zip(&mut self.slots).enumerate() {
             if !is_rough && wishes.has_newer() {
                 return None;
             }
             let started = Instant::now();
-            answer.problems.extend(slot.follow(look));
+            let problems = slot.follow(look);
+            if index == 0 {
+                answer.is_outdated = !problems.is_empty();
+                answer.files = slot.files().to_vec();
+            }
+            answer.problems.extend(problems);
             let load = started.elapsed().as_secs_f64() * 1e3;
             let Some(facts) = slot.facts() else {
                 answer.pictures.push(None);
@@ -326,6 +338,7 @@ impl<'r> Drawer<'r> {
                 }
                 Err(problem) => {
                     answer.problems.push(problem);
+                    answer.is_outdated |= index == 0;
                     answer.pictures.push(None);
                 }
             }

@@ -19,6 +19,8 @@ pub(super) struct Slot<'r> {
     /// The look that was last followed, good or not, and what was wrong with it.
     look: Look,
     problems: Vec<Problem>,
+    /// The files that the last look that could be read names.
+    files: Vec<PathBuf>,
     loaded: Option<Loaded>,
     motion: Motion,
     frames: FrameMaker,
@@ -57,6 +59,7 @@ impl<'r> Slot<'r> {
             registry,
             look: Look::default(),
             problems: Vec::new(),
+            files: Vec::new(),
             loaded: None,
             motion: Motion::new(),
             frames: FrameMaker::new(),
@@ -69,6 +72,11 @@ impl<'r> Slot<'r> {
     /// What is known of the scene; nothing before the first good look.
     pub fn facts(&self) -> Option<Arc<Facts>> {
         self.loaded.as_ref().map(|loaded| loaded.facts.clone())
+    }
+
+    /// The files that the look is read from, also where they can't be; of the last look whose text could be read.
+    pub fn files(&self) -> &[PathBuf] {
+        &self.files
     }
 
     /// Takes on a look. One with mistakes changes nothing, and they are told.
@@ -99,6 +107,7 @@ impl<'r> Slot<'r> {
             .map(|layer| layer.name.clone())
             .collect();
         let from = From::of(&preset, &files, look);
+        self.files = from.files.iter().map(|(path, _)| path.clone()).collect();
         preset
             .layers
             .retain(|layer| look.layers.is_shown(&layer.name));
@@ -124,9 +133,9 @@ impl<'r> Slot<'r> {
             fps: section.fps,
             samples: section.samples,
             camera: preset.sections.camera.clone(),
+            animation_s: scene.animation_s(),
             strands: scene.strand_count(),
             notes: scene.notes().to_vec(),
-            files: from.files.iter().map(|(path, _)| path.clone()).collect(),
             layers,
         });
         self.loaded = Some(Loaded { scene, from, facts });

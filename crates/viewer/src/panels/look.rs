@@ -57,19 +57,48 @@ fn passes(ui: &mut Ui, text: &str, search: &str, edits: &mut Vec<Edit>) {
     list(ui, text, &PASSES, &shown, search, edits);
 }
 
-/// The meshes of the preset `text`, each with its file.
+/// The meshes of the preset `text`, each with its file or shape.
 fn meshes(ui: &mut Ui, text: &str, search: &str, edits: &mut Vec<Edit>) {
     let title = |(index, item): (usize, &&str)| {
-        let file = edit::get(item, &[edit::Step::Field("file")]).unwrap_or("?");
-        format!("{}: {}", index + 1, file.trim_matches('"'))
+        let field = |name: &str| edit::get(item, &[edit::Step::Field(name)]);
+        let of = field("file").or_else(|| field("shape")).unwrap_or("?");
+        format!("{}: {}", index + 1, of.trim_matches('"'))
     };
     let shown = Shown {
         noun: "mesh",
-        needed: &["file"],
+        needed: &["file", "shape"],
         new: "(file: \"mesh.obj\")",
         title: &title,
     };
+    let before = edits.len();
     list(ui, text, &MESHES, &shown, search, edits);
+    let others = other_kind(text, &edits[before..]);
+    edits.extend(others);
+}
+
+/// What a mesh can't have any more once `edits` have made it one of a file, or a thing of a shape.
+fn other_kind(text: &str, edits: &[Edit]) -> Vec<Edit> {
+    let meshes = Place::top().field(MESHES.name);
+    let mut others = Vec::new();
+    for index in 0..edit::items(text, &meshes.steps()).len() {
+        let item = meshes.item(index);
+        let gets = |name: &str| {
+            let set = |edit: &Edit| match edit {
+                Edit::Set(place, text) => *place == item.field(name) && text != "none",
+                _ => false,
+            };
+            edits.iter().any(set)
+        };
+        let goes: &[&str] = match (gets("file"), gets("shape")) {
+            (true, _) => &["shape"],
+            (_, true) => &["file", "texture"],
+            _ => &[],
+        };
+        let there = goes.iter().map(|name| item.field(name));
+        let there = there.filter(|place| edit::get(text, &place.steps()).is_some());
+        others.extend(there.map(Edit::Remove));
+    }
+    others
 }
 
 /// The lines of meshes of the preset `text`, each list with its name.

@@ -64,7 +64,7 @@ pub(super) fn text(ui: &mut Ui, studio: &mut Studio) {
             .accessible_name(format!("{} text", which.name()))
         });
     if response.inner.changed() {
-        // What is typed until the field is left is undone by the field letter by letter, and by us as one step a second.
+        // Ctrl+Z is ours before it is the field's: what is typed within a second is one step of undo.
         let second = ui.input(|input| input.time) as u64;
         studio.write(which, text, Some(u64::MAX / 2 + second));
     }

@@ -143,6 +143,7 @@ fn color(list: &str) -> Color32 {
         "moves" => Color32::from_rgb(120, 190, 230),
         "winds" => Color32::from_rgb(150, 220, 160),
         "keys" => Color32::from_rgb(240, 200, 110),
+        "body_keys" => Color32::from_rgb(225, 160, 120),
         _ => Color32::from_rgb(220, 150, 210),
     }
 }

@@ -27,6 +27,7 @@ impl Studio {
                 }
                 self.shown = [None, None];
                 self.problems.clear();
+                self.is_outdated = false;
                 self.sections = stage::Sections::default();
                 self.inherited = Inherited::default();
                 self.opened += 1;
@@ -66,14 +67,12 @@ impl Studio {
             .to_string_lossy()
             .to_lowercase();
         let ends = |endings: &[&str]| endings.iter().any(|ending| name.ends_with(ending));
-        let (section, param) = if ends(&[".style.ron", ".strands.ron", ".tfx"]) {
-            ("hair", "file")
-        } else if ends(&[".obj"]) {
-            ("head", "file")
+        let section = if ends(&[".style.ron", ".strands.ron", ".tfx"]) {
+            "hair"
+        } else if ends(&[".obj", ".ply", ".gltf", ".glb", ".vrm"]) {
+            "head"
         } else if ends(&[".motion.ron"]) {
-            ("motion", "file")
-        } else if ends(&[".glb", ".gltf", ".vrm"]) {
-            ("motion", "gltf")
+            "motion"
         } else if ends(&[".png", ".jpg", ".jpeg"]) {
             let shown = self.show_reference(path);
             return shown.unwrap_or_else(|error| self.tell(error));
@@ -81,8 +80,8 @@ impl Studio {
             return self.ask_to_open(path);
         } else {
             return self.tell(format!(
-                "{}: presets (.ron), hair (.style.ron, .strands.ron, .tfx), heads (.obj), motion (.motion.ron, .glb, .gltf, .vrm) and \
-                 pictures (.png, .jpg) can be dropped here",
+                "{}: presets (.ron), hair (.style.ron, .strands.ron, .tfx), heads (.obj, .ply, .gltf, .glb, .vrm), motion \
+                 (.motion.ron) and pictures to draw after (.png, .jpg) can be dropped here",
                 path.display()
             ));
         };
@@ -91,8 +90,9 @@ impl Studio {
                 .tell("open a preset first: files of hair, heads and motion become a part of it");
         };
         let file = relative_to(path, &documents.folder());
-        self.set(section, param, &Value::Text(Some(file)), &ParamKind::Text);
-        self.tell(format!("{section}.{param} is {} now", path.display()));
+        if self.set(section, "file", &Value::Text(Some(file)), &ParamKind::Text) {
+            self.tell(format!("{section}.file is {} now", path.display()));
+        }
     }
 
     /// Writes all that is changed.

@@ -4,12 +4,12 @@ use super::{HOUSEKEEPING, Shown, Studio};
 use crate::documents::{Documents, Which};
 use crate::engine::{Drawn, Look, Wish};
 use crate::inherited::Inherited;
-use crate::motion_script::MotionTrack;
+use crate::motion_script::{LATEST_END_S, MotionTrack};
 use crate::prompt::Prompt;
 use crate::transport::SETTLING_S;
 use eframe::egui::{ColorImage, TextureOptions};
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 impl Studio {
@@ -52,6 +52,10 @@ impl Studio {
         }
         if self.files.has_changed() {
             self.files_changed += 1;
+            // A base may name others.
+            if let Some(documents) = &mut self.documents {
+                documents.follow_names();
+            }
         }
         let told = self.documents.as_mut().map(Documents::poll);
         for sentence in told.into_iter().flatten() {
@@ -64,12 +68,15 @@ impl Studio {
         if let Some(answer) = answer.filter(|answer| answer.opened == self.opened) {
             self.is_sharp = answer.is_final;
             self.problems = answer.problems;
+            self.is_outdated = answer.is_outdated;
+            self.watch_files(answer.files);
             for (index, drawn) in answer.pictures.into_iter().enumerate().take(2) {
                 if let Some(drawn) = drawn {
                     self.show(index, drawn);
                 }
             }
         }
+        self.follow_end();
         self.transport.tick(passed_s);
         let step_s = 1.0 / self.transport.fps();
         self.grip.advance_to(self.transport.shown_s(), step_s);
@@ -117,15 +124,21 @@ impl Studio {
             self.prompt = Some(Prompt::Recover);
             self.ctx.request_repaint();
         }
-        if documents.wants_care() {
+        if documents.wants_care() || self.files.wants_care() {
             self.ctx.request_repaint_after(HOUSEKEEPING);
         }
     }
 
-    fn show(&mut self, index: usize, drawn: Drawn) {
-        if index == 0 {
-            self.files.watch(&drawn.facts.files);
+    /// Watches what the look is read from, whether it could be drawn or not: somebody may mend it.
+    fn watch_files(&mut self, mut files: Vec<PathBuf>) {
+        if self.is_outdated {
+            // It may be a base that can't be read.
+            files.extend(self.documents.iter().flat_map(Documents::bases));
         }
+        self.files.watch(&files);
+    }
+
+    fn show(&mut self, index: usize, drawn: Drawn) {
         let size = drawn.size_px.map(|side| side as usize);
         let image = ColorImage::from_rgba_unmultiplied(size, &drawn.pixels);
         if let Some(shown) = &mut self.shown[index] {
@@ -190,7 +203,16 @@ impl Studio {
         self.track = script.map_or_else(MotionTrack::default, |script| {
             MotionTrack::read(script.text())
         });
-        let end = self.track.end_s(SETTLING_S);
-        self.transport.follow(self.sections.scene.fps, end);
+    }
+
+    /// Lets time go as far as the script does, or an animation beside it that is longer.
+    fn follow_end(&mut self) {
+        let shown = self.shown[0].as_ref();
+        let animation_s = shown.map_or(0.0, |shown| shown.drawn.facts.animation_s);
+        let end_s = match self.track.end_s(SETTLING_S) {
+            0.0 => 0.0,
+            script_s => script_s.max(animation_s.min(LATEST_END_S)),
+        };
+        self.transport.follow(self.sections.scene.fps, end_s);
     }
 }

@@ -79,3 +79,13 @@ fn layers_of_the_base_are_changed_by_their_names() {
         "{text}"
     );
 }
+
+#[test]
+fn layers_of_meshes_of_the_base_show_what_they_are_on() {
+    let look = r#"(version: 1, base: "long-fringe.ron", layers: [(name: "eyes")])"#;
+    let mut harness = Pane::new(Kind::Layers, look).harness(300.0);
+    open_all(&mut harness);
+    let on = node(&harness, "eyes on").accesskit_node().value();
+    assert_eq!(on.as_deref(), Some("eyes, brows"));
+    assert_eq!(number(&harness, "eyes through_hair"), 0.6);
+}

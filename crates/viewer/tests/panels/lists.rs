@@ -1,6 +1,6 @@
 //! Hair styles and motion scripts: lists of parts, and places on the head.
 
-use crate::pane::{Kind, Pane, click, names, node, open_all, shows, type_into};
+use crate::pane::{Kind, Pane, click, names, node, open_all, set_number, shows, type_into};
 use egui_kittest::Harness;
 use std::path::Path;
 
@@ -280,4 +280,36 @@ fn passes_of_a_look_are_added_set_moved_and_removed() {
     click(&mut harness, "remove pass 2: strand");
     let left = passes(&harness);
     assert_eq!((left.len(), left[0].width.as_constant()), (1, Some(4.0)));
+}
+
+/// Points that are nearer to each other than hands put them are a style's own.
+#[test]
+fn opening_points_changes_nothing() {
+    let style = STYLE.replace(
+        "version: 1,",
+        "version: 1, hairline: [(0, 30), (0.2, 31), (0.4, 30), (180, -20)],",
+    );
+    let mut harness = shown(Kind::Style, &style);
+    assert_eq!(harness.state().edits, []);
+    // What is chosen is within the limits.
+    set_number(&mut harness, "style hairline point 3 longitude", 200.0);
+    says(&harness, "(179.5, 30)");
+}
+
+#[test]
+fn a_mesh_is_of_a_file_or_of_a_shape() {
+    let mut harness = shown(Kind::Look, "(version: 1, layers: [])");
+    click(&mut harness, "add mesh");
+    open_all(&mut harness);
+    click(&mut harness, "mesh 1: mesh.obj shape");
+    click(&mut harness, "gear");
+    let meshes = |harness: &Harness<Pane>| {
+        let text = &harness.state().text;
+        text[text.find("meshes").unwrap()..].to_owned()
+    };
+    assert_eq!(meshes(&harness), "meshes: [(shape: gear)])");
+    open_all(&mut harness);
+    assert!(names(&harness).contains(&"open mesh 1: gear".to_owned()));
+    type_into(&mut harness, "mesh 1: gear file", "eyes.obj");
+    assert_eq!(meshes(&harness), "meshes: [(file: \"eyes.obj\")])");
 }

@@ -7,6 +7,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use std::path::Path;
 use viewer::app::App;
+use viewer::documents::Which::{Motion, Preset, Style};
 use viewer::studio::Tool;
 
 #[test]
@@ -89,6 +90,20 @@ fn files_are_dropped() {
         .take_file(Path::new("letter.docx"));
     harness.run_steps(2);
     harness.get_by_label_contains("can be dropped here");
+    for head in ["a.obj", "a.ply", "a.gltf", "a.glb", "a.vrm"] {
+        harness.state_mut().studio.take_file(&looks.path(head));
+        let is_head = format!("head: (shape: bust, file: \"{head}\")");
+        assert!(text(&harness).contains(&is_head), "{}", text(&harness));
+    }
+    // What can't be written into a text isn't told to be there.
+    let studio = &mut harness.state_mut().studio;
+    studio.write(Preset, LOOK.replace("],\n)", ""), None);
+    studio.take_file(&looks.path("other.motion.ron"));
+    let told = studio.told().unwrap();
+    assert!(
+        !told.contains("is now") && !told.ends_with(" now"),
+        "{told}"
+    );
 }
 
 #[test]
@@ -126,7 +141,6 @@ fn changes_outlive_a_crash() {
 
 #[test]
 fn copies_are_offered_of_styles_that_are_opened_later() {
-    use viewer::documents::Which::{Preset, Style};
     let looks = Looks::new();
     let path = looks.path("other.style.ron");
     let own = looks.read("bob.style.ron");
@@ -248,4 +262,95 @@ fn what_the_preset_builds_on_is_read_anew() {
         app.studio.sections.camera.yaw == 35.0
     });
     assert_eq!(harness.state().studio.sections.light.yaw, 50.0);
+}
+
+/// A look that says only what is otherwise than in `looks/under.ron`, with hair and script beside that.
+fn based(looks: &Looks) {
+    std::fs::create_dir(looks.path("looks")).unwrap();
+    for name in ["bob.style.ron", "turn.motion.ron"] {
+        std::fs::rename(looks.path(name), looks.path("looks").join(name)).unwrap();
+    }
+    std::fs::write(looks.path("looks/under.ron"), LOOK).unwrap();
+    let look = "(version: 1, base: \"looks/under.ron\", light: (yaw: 50))";
+    std::fs::write(looks.path("look.ron"), look).unwrap();
+}
+
+#[test]
+fn style_and_script_of_the_base_are_changed() {
+    let looks = Looks::new();
+    based(&looks);
+    let mut harness = viewer(&looks);
+    wait_for_picture(&mut harness);
+    let studio = &mut harness.state_mut().studio;
+    assert_eq!(studio.track.spans.len(), 1);
+    let documents = studio.documents.as_ref().unwrap();
+    let style = documents.get(Style).unwrap().text().to_string();
+    let script = documents.get(Motion).unwrap().path();
+    assert_eq!(script, looks.path("looks/turn.motion.ron"));
+    let before = studio.pixels(0).unwrap().to_vec();
+    let more = style.replacen("count: 7", "count: 17", 1);
+    studio.write(Style, more, None);
+    wait_for(&mut harness, "other hair", |app| {
+        app.studio.is_sharp && app.studio.pixels(0).is_some_and(|pixels| pixels != before)
+    });
+    assert!(harness.state().studio.problems.is_empty());
+
+    // Another one that the base names from now on.
+    std::fs::copy(
+        looks.path("looks/turn.motion.ron"),
+        looks.path("looks/other.motion.ron"),
+    )
+    .unwrap();
+    let renamed = LOOK.replace("turn.motion", "other.motion");
+    std::fs::write(looks.path("looks/under.ron"), renamed).unwrap();
+    wait_for(&mut harness, "the other script", |app| {
+        let documents = app.studio.documents.as_ref().unwrap();
+        documents.get(Motion).unwrap().name() == "other.motion.ron"
+    });
+}
+
+#[test]
+fn a_first_look_is_drawn_once_its_files_are_mended() {
+    let looks = Looks::new();
+    based(&looks);
+    let hair = "(version: 1, strands: [(size: 14, mirror: true, points: [(0.02, 1.619, 0), (0.058, 1.6, 0), (0.083, 1.55, 0.01)])])";
+    let under = LOOK.replace("bob.style.ron", "hair/few.strands.ron");
+    std::fs::write(looks.path("looks/under.ron"), "(version: 1,").unwrap();
+    let mut harness = viewer(&looks);
+    let is_told = |message: &'static str| {
+        move |app: &App| {
+            let problems = &app.studio.problems;
+            problems.iter().any(|p| p.to_string().contains(message))
+        }
+    };
+    wait_for(&mut harness, "the mistake", is_told("under.ron"));
+    std::fs::write(looks.path("looks/under.ron"), &under).unwrap();
+    wait_for(&mut harness, "the next", is_told("few.strands.ron"));
+    assert!(harness.state().studio.shown[0].is_none());
+    // Nor is the folder of its hair there before.
+    std::fs::create_dir(looks.path("looks/hair")).unwrap();
+    std::fs::write(looks.path("looks/hair/few.strands.ron"), hair).unwrap();
+    wait_for_picture(&mut harness);
+    assert!(harness.state().studio.problems.is_empty());
+}
+
+/// A style that was deleted when it was named, and isn't named any more, is missed by nobody, also later.
+#[test]
+fn a_deleted_style_that_is_not_named_leaves_no_copy() {
+    let looks = Looks::new();
+    let style = looks.read("bob.style.ron");
+    std::fs::write(looks.path("other.style.ron"), &style).unwrap();
+    let copies = looks.path("copies");
+    let recovery = document::Recovery::in_folder(&copies);
+    let size = Vec2::new(1280.0, 800.0);
+    let mut harness = recovering(Some(looks.path("look.ron")), size, recovery);
+    harness.run_steps(3);
+    std::fs::remove_file(looks.path("bob.style.ron")).unwrap();
+    let count = move || std::fs::read_dir(&copies).map_or(0, Iterator::count);
+    wait_for(&mut harness, "the copy", |_| count() > 0);
+    let renamed = LOOK.replace("bob.style", "other.style");
+    harness.state_mut().studio.write(Preset, renamed, None);
+    harness.run_steps(2);
+    harness.state_mut().studio.save();
+    assert_eq!(count(), 0);
 }

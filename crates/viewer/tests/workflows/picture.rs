@@ -255,3 +255,30 @@ fn an_edited_style_is_seen_before_it_is_saved() {
     press(&mut harness, COMMAND, Key::S);
     assert_eq!(looks.read("bob.style.ron"), other);
 }
+
+#[test]
+fn only_a_picture_that_is_outdated_is_said_to_be() {
+    let looks = Looks::new();
+    std::fs::write(looks.path("broken.ron"), "(version: 1,").unwrap();
+    let mut harness = viewer(&looks);
+    wait_for_picture(&mut harness);
+    let compared = harness
+        .state_mut()
+        .studio
+        .compare_with(&looks.path("broken.ron"));
+    compared.unwrap();
+    let has_problems = |app: &App| !app.studio.problems.is_empty();
+    wait_for(&mut harness, "the other's mistake", has_problems);
+    let says_so = |harness: &Harness<App>| {
+        let sentence = "The picture shows the last look without mistakes.";
+        harness.query_by_label(sentence).is_some()
+    };
+    assert!(!says_so(&harness));
+    harness.state_mut().studio.end_compare();
+    wait_for(&mut harness, "no mistake", |app| !has_problems(app));
+    let wrong = LOOK.replace("yaw: 20", "yaw: much");
+    let studio = &mut harness.state_mut().studio;
+    studio.write(viewer::documents::Which::Preset, wrong, None);
+    wait_for(&mut harness, "the mistake", has_problems);
+    assert!(says_so(&harness));
+}

@@ -1,6 +1,6 @@
 //! Changes of several texts, and the steps back.
 
-use crate::common::{LOOK, Looks, SCRIPT, viewer, wait_for_picture};
+use crate::common::{LOOK, Looks, SCRIPT, viewer, wait_for, wait_for_picture};
 use crate::hands::{COMMAND, press, redo, undo};
 use eframe::egui::Key;
 use egui_kittest::Harness;
@@ -143,4 +143,54 @@ fn a_style_that_is_named_again_has_its_changes_and_steps() {
     harness.run_steps(2);
     let documents = harness.state().studio.documents.as_ref().unwrap();
     assert!(!documents.is_changed());
+}
+
+/// What was taken back and then replaced from the disk can't be made again; what was taken back of other texts can.
+#[test]
+fn what_was_taken_from_the_disk_ends_no_steps_of_another_text() {
+    use viewer::documents::Which::{Motion, Preset};
+    let looks = Looks::new();
+    let mut harness = viewer(&looks);
+    harness.run_steps(3);
+    let [first, theirs] = ["1.6", "1.7"].map(|width| LOOK.replace("1.5", width));
+    let second = SCRIPT.replace("40", "50");
+    write(&mut harness, Motion, &second, None);
+    write(&mut harness, Preset, &first, None);
+    undo(&mut harness);
+    undo(&mut harness);
+    write_back(&looks, &mut harness, &theirs);
+    // The script's is the next that was taken back; the preset's own is gone.
+    redo(&mut harness);
+    assert_eq!(texts(&harness), [theirs.clone(), second.clone()]);
+    redo(&mut harness);
+    assert_eq!(texts(&harness), [theirs.clone(), second]);
+    undo(&mut harness);
+    assert_eq!(texts(&harness), [theirs, SCRIPT.to_owned()]);
+}
+
+/// Somebody else writes the preset, which is read again.
+fn write_back(looks: &Looks, harness: &mut Harness<App>, theirs: &str) {
+    std::fs::write(looks.path("look.ron"), theirs).unwrap();
+    wait_for(harness, "the preset of the disk", |app| {
+        let documents = app.studio.documents.as_ref().unwrap();
+        **documents.preset().text() == *theirs
+    });
+}
+
+#[test]
+fn what_is_changed_at_once_is_taken_back_at_once() {
+    use viewer::edit::{Edit, Place};
+    let looks = Looks::new();
+    let mut harness = viewer(&looks);
+    harness.run_steps(3);
+    let light = |name: &str| Place::top().field("light").field(name);
+    let edits = [
+        Edit::Set(light("yaw"), "10".to_owned()),
+        Edit::Remove(light("pitch")),
+    ];
+    let studio = &mut harness.state_mut().studio;
+    assert!(studio.change(Which::Preset, &edits));
+    assert!(texts(&harness)[0].contains("light: (yaw: 10)"));
+    undo(&mut harness);
+    assert_eq!(texts(&harness)[0], LOOK);
 }

@@ -34,6 +34,43 @@ fn time_runs_steps_and_loops() {
     assert_eq!(time(&harness), 0.0);
 }
 
+/// A character whose head rises for eight seconds.
+fn write_riser(looks: &Looks) {
+    let numbers = [0.0_f32, 8.0, 0.0, 0.0, 0.0, 0.0, 0.1, 0.0];
+    let bytes: Vec<u8> = numbers.iter().flat_map(|x| x.to_le_bytes()).collect();
+    std::fs::write(looks.path("riser.bin"), bytes).unwrap();
+    let text = r#"{
+        "asset": {"version": "2.0"},
+        "nodes": [{"name": "head"}],
+        "buffers": [{"byteLength": 32, "uri": "riser.bin"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 8}, {"buffer": 0, "byteOffset": 8, "byteLength": 24}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 2, "type": "SCALAR"},
+            {"bufferView": 1, "componentType": 5126, "count": 2, "type": "VEC3"}
+        ],
+        "animations": [{
+            "samplers": [{"input": 0, "output": 1}],
+            "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]
+        }]
+    }"#;
+    std::fs::write(looks.path("riser.gltf"), text).unwrap();
+}
+
+#[test]
+fn time_goes_as_far_as_an_animation() {
+    let looks = Looks::new();
+    write_riser(&looks);
+    let script = "motion: (file: \"turn.motion.ron\"";
+    let animated = LOOK.replace(script, &format!("{script}, gltf: \"riser.gltf\""));
+    std::fs::write(looks.path("look.ron"), animated).unwrap();
+    let mut harness = viewer(&looks);
+    wait_for_picture(&mut harness);
+    let transport = &mut harness.state_mut().studio.transport;
+    assert_eq!(transport.span_s(), 8.0);
+    transport.seek(7.5);
+    assert_eq!(transport.shown_s(), 7.5);
+}
+
 #[test]
 fn every_pane_is_shown_in_windows_of_any_size() {
     let looks = Looks::new();
