@@ -238,7 +238,7 @@ impl<'r> Preset<'r> {
         let is_of_file = matches!(
             error,
             StageError::File(_) | StageError::Character(_) | StageError::Read { .. }
-        );
+        ) || matches!(error, StageError::Body { .. }) && self.bodies.is_empty();
         if is_of_file && self.objects.is_empty() {
             let is_script = |file: &&NamedFile| (file.section, file.param) == ("motion", "file");
             let script = named.iter().find(is_script);

@@ -70,6 +70,26 @@ fn names(preset: &Preset) -> Vec<String> {
 }
 
 #[test]
+fn the_picture_of_a_brush_is_where_the_base_says() {
+    let text = r#"(version: 1, hair: (file: "hair.strands.ron", guides: 0),
+        layers: [(effect: "hair.base", brush: (texture: "bristles.png"))])"#;
+    let (folder, registry) = (folder(&[("looks/brushed.ron", text)]), registry());
+    let path = folder.path().join("looks/bristles.png");
+    image::GrayImage::from_pixel(4, 4, image::Luma([200]))
+        .save(path)
+        .unwrap();
+    let text = r#"(version: 1, base: "looks/brushed.ron")"#;
+    let preset = parse(folder.path(), text, &registry).unwrap();
+    let brush = &preset.layers[0].brush;
+    assert_eq!(brush.texture.as_deref(), Some("looks/bristles.png"));
+    let files = Files {
+        preset_folder: folder.path().to_owned(),
+        ..Files::default()
+    };
+    Stage::new(&preset, &files).unwrap();
+}
+
+#[test]
 fn what_a_preset_does_not_say_its_base_says() {
     let (folder, registry) = (folder(&[]), registry());
     let text =

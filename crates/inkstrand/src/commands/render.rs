@@ -76,7 +76,7 @@ fn draw(
     .map_err(Failure::Usage)?;
     if options.pass.is_some() && output.is_moving() {
         let message =
-            "--pass: numbers in 16 bits are no frames of an .apng: -o must be a name in .png";
+            "--pass: what a pass tells is no frame of an .apng: -o must be a name in .png";
         return Err(Failure::Usage(message.to_owned()));
     }
     let (first, last) = frames(options, fps);

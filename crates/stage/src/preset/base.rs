@@ -156,6 +156,7 @@ impl<'r> Preset<'r> {
             object.section.preset.as_mut().map(moved);
         }
         for layer in &mut self.layers {
+            layer.brush.texture.iter_mut().for_each(moved);
             for (index, param) in layer.effect.params().iter().enumerate() {
                 if let Value::Texture(Texture::File(name)) = layer.values.value(param.name) {
                     let mut name = name.clone();

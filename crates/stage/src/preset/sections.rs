@@ -389,7 +389,7 @@ section! {
         /// Seed of all variations.
         seed: u32 = whole(1, 0..=i32::MAX as u32),
         /// Another preset that this one builds on, relative to it. What this one says is in place of what that one says: each value of a
-        /// section or of a layer with the same name by itself, `meshes`, `passes` and `objects` as a whole. New layers come after its own.
+        /// section or of a layer with the same name by itself, `lines`, `meshes`, `bodies`, `passes` and `objects` as a whole. New layers come after its own.
         base: Option<String> = text(),
         /// The base's layers that are left out: their names with commas between them, such as "hair.fine, hair.highlight".
         without: Option<String> = text(),

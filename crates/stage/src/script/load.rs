@@ -72,7 +72,8 @@ fn check_loop(script: &MotionScript) -> Result<(), PresetErrors> {
     let at_loop = |what: String| {
         let place = script.loop_place.clone()?;
         let message = format!(
-            "loop: {what} is elsewhere after {period} s than at its start: let `period` be a whole number of times its length"
+            "loop: {what} is elsewhere after {} s than at its start: let `period` be a whole number of times its length",
+            period as f32,
         );
         Some(PresetError { place, message })
     };
