@@ -94,15 +94,17 @@ fn run(
 ) -> Happened {
     let mut happened = Happened::default();
     for step in steps {
-        let colliders = [Collider {
-            shape: Shape::Sphere {
-                center: DVec3::ZERO,
-                radius: 0.1,
-            },
+        let ball = |center: DVec3, radius: f64| Collider {
+            shape: Shape::Sphere { center, radius },
             before: head(step),
             now: head(step + 1),
             was: None,
-        }];
+        };
+        // The second one presses hair against the first.
+        let colliders = [
+            ball(DVec3::ZERO, 0.1),
+            ball(DVec3::new(0.13, 0.0, 0.0), 0.03),
+        ];
         // Many, as a sort of a few needs no memory.
         let anchors: [Anchor; 32] = std::array::from_fn(|i| Anchor {
             strand: 31 - i,

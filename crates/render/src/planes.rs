@@ -297,7 +297,7 @@ impl SamplePlanes {
         self.layout.declared
     }
 
-    /// The numbers of its samples, as [`sample_positions`](crate::sample_positions) counts them.
+    /// The numbers of its samples, as [`sample_positions`](crate::sample_positions) counts them; of a render pass with several as the card does.
     #[must_use]
     pub fn samples(&self) -> Range<usize> {
         self.first..self.first + self.count

@@ -326,8 +326,13 @@ impl Documents {
             return;
         };
         let has_steps = |document: &Document| document.can_undo() || document.can_redo();
+        // The last place of a text whose file is gone is its copy: a name that is typed letter by letter leaves it for a moment only.
+        let is_gone = |document: &Document| document.conflict() == Some(&Conflict::Deleted);
         let is_kept = |(_, document): &(Which, Document)| {
-            has_steps(document) || document.was_edited() || document.recovered().is_some()
+            has_steps(document)
+                || document.was_edited()
+                || document.recovered().is_some()
+                || is_gone(document)
         };
         if !self.texts.get(&id).is_some_and(is_kept)
             && let Some((_, document)) = self.texts.remove(&id)
@@ -380,7 +385,22 @@ impl Documents {
             }
             document.save().err()
         });
-        saved.collect()
+        let errors = saved.collect();
+        self.close_gone();
+        errors
+    }
+
+    /// Closes texts that are no more on the disk and no more named, which are missed by nobody.
+    fn close_gone(&mut self) {
+        let open: BTreeSet<Id> = self.open.values().copied().collect();
+        let is_missed = |id: &Id, document: &Document| {
+            let is_gone = document.conflict() == Some(&Conflict::Deleted);
+            !is_gone || open.contains(id) || document.was_edited()
+        };
+        let gone = self
+            .texts
+            .extract_if(.., |id, (_, document)| !is_missed(id, document));
+        gone.for_each(|(_, (_, document))| document.close());
     }
 
     /// Looks again for the style and script that could not be opened.

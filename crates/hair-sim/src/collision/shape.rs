@@ -141,9 +141,9 @@ impl<'a> Collider<'a> {
     }
 }
 
-/// Where the root of a strand is in a body, hair comes out of it by this share of its length: by all of it a strand would be pulled taut,
+/// Where the root of a strand is in a ball or a capsule, hair comes out of it by this share of its length: by all of it a strand would be pulled taut,
 /// by more its links would be torn apart, and the way out may go along another body.
-pub const LEADS_OUT: f64 = 0.4;
+pub const LEADS_OUT: f64 = 0.5;
 
 /// A body where it is when the step ends, made ready to be asked often and in single precision: for what is drawn.
 ///
@@ -178,6 +178,12 @@ enum Asked<'a> {
 }
 
 impl<'a> Placed<'a> {
+    /// Whether it is a mesh, whose distances are known on a grid.
+    #[must_use]
+    pub fn is_sampled(&self) -> bool {
+        self.collider.shape.is_sampled()
+    }
+
     /// A body when its step ends.
     #[must_use]
     pub fn new(collider: &Collider<'a>) -> Self {

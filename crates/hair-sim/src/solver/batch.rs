@@ -150,7 +150,11 @@ impl Batch {
     /// The particle that a plane holds.
     #[inline(always)]
     pub(crate) fn held_by(&self, plane: usize) -> usize {
-        plane % self.count()
+        let (count, mut particle) = (self.count(), plane);
+        while particle >= count {
+            particle -= count;
+        }
+        particle
     }
 
     /// How many planes may hold particles, where bodies may give them a second one: those come last.
@@ -211,8 +215,6 @@ pub(crate) struct BatchState {
     pub restless: Lane,
     /// Strands that anchors held in the last step.
     pub tied: [bool; LANES],
-    /// Those that two bodies had planes for then, of which links count for one.
-    pub between: [bool; LANES],
     /// For how long they have rocked on a body, in s.
     pub rocking: Lane,
     /// Where the tips were a step before, and their way in the step before that.
@@ -265,7 +267,6 @@ impl BatchState {
             calm: Lane::ZERO,
             restless: Lane::ZERO,
             tied: [false; LANES],
-            between: [false; LANES],
             rocking: Lane::ZERO,
             tip_before: Vec3::ZERO,
             tip_way: Vec3::ZERO,

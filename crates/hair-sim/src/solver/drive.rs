@@ -270,6 +270,7 @@ pub(crate) fn prepare<T: Number>(
         stats.wind = active.count() * batch.count();
     }
     loads.touched.clear();
+    loads.between = Mask::NONE;
     if !drive.surroundings.colliders.is_empty() {
         if !state.skin_known {
             find::settle_in(batch, state, drive.surroundings.colliders);
@@ -284,6 +285,7 @@ pub(crate) fn prepare<T: Number>(
         state.hold_planes(room);
         if loads.contacts.len() < room {
             loads.contacts.resize(room, Contact::NONE);
+            loads.touched.reserve(room);
         }
         let planes = Planes {
             contacts: &mut loads.contacts,
@@ -294,7 +296,7 @@ pub(crate) fn prepare<T: Number>(
         let (found, between) =
             find::detect::<T>((batch, &*state), &bodies, active, planes, &mut lifts);
         stats.contacts = found;
-        state.between = between;
+        loads.between = Mask::new(between);
         state.lifts = lifts;
     }
     if let Some((index, locks)) = drive.locks {

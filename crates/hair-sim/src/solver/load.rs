@@ -28,9 +28,11 @@ pub(crate) struct Loads {
     /// The share of its friction that is left to each particle, where any is recalled.
     pub grips: Vec<Lane>,
     pub contacts: Vec<Contact>,
-    /// The planes that particles have in this step, by their places in `contacts`: the first are those of bodies, one for each particle, then come
-    /// those of other strands.
+    /// The planes that particles have in this step, by their places in `contacts`: there the first are those of bodies, one for each particle, then come
+    /// those of other strands, and last second ones of bodies.
     pub touched: Vec<usize>,
+    /// The strands that two bodies have planes for in this step, of which links count for one.
+    pub between: Mask,
     /// What planes of bodies were found by.
     pub ways: Ways,
 }
@@ -48,6 +50,7 @@ impl Loads {
             grips: vec![Lane::ONE; count],
             contacts: vec![Contact::NONE; planes],
             touched: Vec::with_capacity(planes),
+            between: Mask::NONE,
             ways: Ways::new(count),
         }
     }

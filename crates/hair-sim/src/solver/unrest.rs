@@ -53,8 +53,13 @@ pub(super) fn calm_down(
 ) {
     let turned_back = turned_back(state, active);
     let goes_nowhere = goes_nowhere(batch, state, active, drive.dt);
-    let [jams, rocks] = moved(batch, state, drive, [goes_nowhere, turned_back])
-        .map(|counts| active.pick(counts, Lane::ZERO));
+    let [jams, rocks] = moved(
+        batch,
+        state,
+        (drive, loads.between),
+        [goes_nowhere, turned_back],
+    )
+    .map(|counts| active.pick(counts, Lane::ZERO));
     if [jams, rocks, state.restless, state.rocking] == [Lane::ZERO; 4] {
         return;
     }
@@ -118,12 +123,12 @@ fn has_swung(batch: &Batch, state: &BatchState) -> Mask {
 fn moved(
     batch: &Batch,
     state: &BatchState,
-    drive: &Drive,
+    (drive, between): (&Drive, Mask),
     [goes_nowhere, turned_back]: [Mask; 2],
 ) -> [Lane; 2] {
     let (bodies, others) = state.press.split_at(batch.count());
     let (others, second) = others.split_at(batch.planes - batch.count());
-    let held_fast = Mask::new(state.tied).or(Mask::new(state.between));
+    let held_fast = Mask::new(state.tied).or(between);
     let held_fast = held_fast.pick(Lane::ONE, Lane::ZERO);
     let counts = |so_far: Lane, here: Mask, goes_on: f64| {
         let patient = so_far.lt(Lane::splat(PATIENCE[0]));

@@ -75,8 +75,7 @@ fn draw(
     )
     .map_err(Failure::Usage)?;
     if options.pass.is_some() && output.is_moving() {
-        let message =
-            "--pass: what a pass tells is no frame of an .apng: -o must be a name in .png";
+        let message = "--pass: what it tells, in up to 16 bits, is no frame of an .apng: -o must be a name in .png";
         return Err(Failure::Usage(message.to_owned()));
     }
     let (first, last) = frames(options, fps);

@@ -188,11 +188,7 @@ impl Renderer {
             Some(composer) if composer.fits(&pass) => composer,
             _ => Composer::new(&self.device, pass)?,
         };
-        let places = match pass.samples {
-            1 => sample_positions(samples)?,
-            // Where the card has them.
-            several => standard_positions(several).ok_or(SampleCountError(several))?,
-        };
+        let places = places_in_pass(pass.samples, samples)?;
         let is_new = self.draw(encoder, Source::Frame(frame), &places, Keeps::Samples)?;
         let buffers = &self.buffers;
         let (Some(frame), Some(drawn)) = (buffers.frame.get(), buffers.picture.get()) else {
@@ -657,5 +653,29 @@ impl Renderer {
             .map_err(|error| GpuError::Lost(error.to_string()))?;
         self.read_report();
         Ok(())
+    }
+}
+
+/// Where the samples lie that are prepared for a pass: those of a pass with several where the card has them.
+fn places_in_pass(of_pass: u32, prepared: u32) -> Result<Vec<Vec2>, SampleCountError> {
+    match of_pass {
+        1 => sample_positions(prepared),
+        several => standard_positions(several).ok_or(SampleCountError(several)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pass_with_sixteen_samples_has_the_cards() {
+        let mean = |places: Vec<Vec2>| places.iter().sum::<Vec2>() / places.len() as f32;
+        assert_eq!(mean(places_in_pass(1, 16).unwrap()), Vec2::splat(0.5));
+        assert_eq!(
+            mean(places_in_pass(16, 16).unwrap()),
+            Vec2::splat(15.0 / 32.0)
+        );
+        assert_eq!(places_in_pass(3, 3), Err(SampleCountError(3)));
     }
 }

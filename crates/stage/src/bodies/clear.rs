@@ -23,7 +23,7 @@ const ROUNDING: f32 = 1e-6;
 pub(crate) type Gap = [f32; PLACES.len()];
 
 /// Moves the points of a strand behind the first `held` out of bodies, with the way that is drawn between them, until each place is as far away as
-/// `gap` says of the link that ends at a point, which is `most` m at most, but for a tenth of a millimetre; where the last held point is in a body, hair comes
+/// `gap` says of the link that ends at a point, which is `most` m at most, but for a tenth of a millimetre; where the last held point is in a ball or a capsule, hair comes
 /// out of it by and by ([`LEADS_OUT`]). Whether any moved: what is clear stays, to the bit.
 pub(crate) fn clear(
     points: &mut [Vec3],
@@ -127,7 +127,7 @@ struct Near<'a, 'b> {
     bulge: f32,
     /// How far the links there are from going on straight and even, m.
     bend: f32,
-    /// Where the last point that is held is in a body: how far hair leads out of it to each point, m. Else nothing.
+    /// Where the last point that is held is in a ball or a capsule: how far hair leads out of it to each point, m. Else nothing.
     led: Vec<f32>,
 }
 
@@ -140,7 +140,7 @@ pub(crate) struct Known {
     middle: f32,
     /// Whether the way to there may come nearer than was asked for. Then the first is the distance.
     may_meet: bool,
-    /// At the last point that is held.
+    /// At the last point that is held, where that is in it; else infinity.
     root: f32,
 }
 
@@ -155,12 +155,18 @@ impl<'a, 'b> Near<'a, 'b> {
         }
     }
 
-    /// Takes note of how far the last point that is held is from bodies.
+    /// Takes note of which bodies the last point that is held is in.
     fn root(&mut self, points: &[Vec3], at: usize) {
         let mut is_in = false;
         for (body, known) in &mut *self.bodies {
-            known.root = body.distance(points[at]);
-            is_in |= known.root < 0.0;
+            // Most roots are in the mesh of their head.
+            let root = if body.is_sampled() {
+                0.0
+            } else {
+                body.distance(points[at])
+            };
+            known.root = if root < 0.0 { root } else { f32::INFINITY };
+            is_in |= root < 0.0;
         }
         if is_in {
             let links = points.windows(2).map(|link| link[0].distance(link[1]));

@@ -90,24 +90,23 @@ impl Guard {
         near.and(self.reach(from, to, keep).store().lt(apart).not())
     }
 
-    /// How far roots are from the body, in m; those outside of the ball around it are known by this alone.
+    /// How far roots in the body are from its surface, in m, less than 0. Of those outside, and of all where links don't count for it, as most roots
+    /// are in the mesh of their head: infinity.
     #[inline(always)]
-    fn distances_of<T: Number>(&self, roots: Vec3, shape: &Shape) -> Lane {
+    fn depths<T: Number>(&self, roots: Vec3, shape: &Shape) -> Lane {
+        let far = Lane::splat(f64::INFINITY);
+        if !self.has_links {
+            return far;
+        }
         let roots: Vec3<T> = roots.load();
         let apart = (roots - Vec3::all(self.center)).length_squared().store();
         let inside = apart.gt(Lane::splat(self.radius * self.radius)).not();
         if !inside.any() {
-            return Lane::splat(f64::INFINITY);
+            return far;
         }
-        let at = turned(&self.back, roots - Vec3::all(self.origin));
-        let distances = match shape {
-            Shape::Grid(grid) => grid.distances(at).store(),
-            shape => {
-                let at = at.store();
-                Lane(std::array::from_fn(|lane| shape.distance(at.get(lane))))
-            }
-        };
-        inside.pick(distances, Lane::splat(f64::INFINITY))
+        let at = turned(&self.back, roots - Vec3::all(self.origin)).store();
+        let distances = Lane(std::array::from_fn(|lane| shape.distance(at.get(lane))));
+        distances.lt(Lane::ZERO).pick(distances, far)
     }
 
     /// How far from where it ends a particle may meet the body's surface.
@@ -134,7 +133,7 @@ pub(crate) struct Ways {
     pub(super) to: Vec<Vec3>,
     /// The strands whose particle, or the link after it, may come near a body.
     pub(super) near: Vec<Mask>,
-    /// How far the strands' roots are from each body when the step ends, in m.
+    /// How far the strands' roots are from the surface of each body that they are in when the step ends, in m; infinity of the others.
     roots: Vec<Lane>,
 }
 
@@ -149,17 +148,16 @@ impl Ways {
         }
     }
 
-    /// Takes note of how far roots are from bodies.
+    /// Takes note of which bodies roots are in.
     #[inline(always)]
     pub(super) fn look_at_roots<T: Number>(&mut self, bodies: &Bodies) {
         let bodies_of = bodies.guards.iter().zip(bodies.colliders);
-        let distances =
-            bodies_of.map(|(guard, body)| guard.distances_of::<T>(bodies.now, &body.shape));
+        let depths = bodies_of.map(|(guard, body)| guard.depths::<T>(bodies.now, &body.shape));
         self.roots.clear();
-        self.roots.extend(distances);
+        self.roots.extend(depths);
     }
 
-    /// Bodies with how far the root of a strand is from each.
+    /// Bodies with how deep the root of a strand is in each.
     #[inline(always)]
     pub(super) fn of_root<'a, 'b>(
         &self,
@@ -339,14 +337,11 @@ fn detect_alone<T: Number>(
         #[inline(always)]
         move || {
             let Planes {
-                contacts,
-                touched,
-                ways,
+                contacts, touched, ..
             } = planes;
             let mut found = 0;
             // What is unknown was a blow, which is over.
             let known = T::condition(&Mask::new(state.restart).not());
-            ways.look_at_roots::<T>(bodies);
             for k in 0..batch.count() {
                 let [from, to] = way::<T>(k, state, bodies, known);
                 let keep = batch.thickness.load::<T>() + state.skin[k].load();
@@ -367,11 +362,10 @@ fn detect_alone<T: Number>(
                         from: from.get(lane),
                         to: to.get(lane),
                         keep: keep[lane],
-                        along: LEADS_OUT * batch.along[k][lane],
+                        leads_out: f64::INFINITY,
                         dt: bodies.dt,
                     };
-                    let bodies_of_root = ways.of_root(bodies.colliders, lane);
-                    let Some((collider, plane)) = path.first(bodies_of_root) else {
+                    let Some((collider, plane)) = path.first(bodies.colliders) else {
                         continue;
                     };
                     found += 1;
@@ -504,7 +498,7 @@ impl Looked<'_> {
             from: self.ways.from[k].get(lane),
             to: self.ways.to[k].get(lane),
             keep: self.batch.thickness[lane] + self.state.skin[k][lane],
-            along: LEADS_OUT * self.batch.along[k][lane],
+            leads_out: LEADS_OUT * self.batch.along[k][lane],
             dt: self.bodies.dt,
         }
     }
@@ -548,7 +542,7 @@ impl Looked<'_> {
         let colliders = self.ways.of_root(self.bodies.colliders, lane);
         for (index, (collider, root)) in colliders.enumerate() {
             let lift = if index == of { *last_lift } else { 0.0 };
-            let path = path.from_root(root);
+            let path = path.led_out(root);
             let lifted = Path {
                 keep: path.keep + lift,
                 ..path
@@ -694,7 +688,7 @@ mod tests {
                 from,
                 to,
                 keep: 1e-3,
-                along: 0.0,
+                leads_out: 0.0,
                 dt: 0.01,
             };
             let keep = Lane::splat(path.keep);

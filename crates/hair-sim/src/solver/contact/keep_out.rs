@@ -65,6 +65,9 @@ pub(crate) fn keep_out<T: Number>(
         },
     );
     let mut turned = Mask::NONE;
+    if near.any() {
+        ways.look_at_roots::<T>(bodies);
+    }
     for lane in (0..LANES).filter(|&lane| near.get(lane)) {
         turned.set(lane, strand(batch, state, bodies, ways, lane));
     }
@@ -96,7 +99,7 @@ fn strand(
                 (0, 0) => f64::NEG_INFINITY,
                 _ => batch.thickness[lane] + state.skin[k + end - 1][lane],
             }),
-            along: std::array::from_fn(|end| match (k, end) {
+            leads_out: std::array::from_fn(|end| match (k, end) {
                 (0, 0) => 0.0,
                 _ => LEADS_OUT * batch.along[k + end - 1][lane],
             }),
@@ -142,19 +145,19 @@ struct Link {
     before: [DVec3; 2],
     now: [DVec3; 2],
     keep: [f64; 2],
-    /// How far they may be from the root of the strand, in m.
-    along: [f64; 2],
+    /// How much farther out of a body than the root of the strand they may have to be, in m.
+    leads_out: [f64; 2],
     length: f64,
     dt: f64,
 }
 
 impl Link {
-    /// What an end keeps from a body from which the strand's root is so far.
+    /// What an end keeps from a body in which the strand's root is so deep.
     fn keep_of(&self, end: usize, root: f64) -> f64 {
-        self.keep[end].min(root + self.along[end])
+        self.keep[end].min(root + self.leads_out[end])
     }
 
-    /// Turns it about its start until it is out of all bodies, of which the strand's root is so far from each. Returns whether it was in one.
+    /// Turns it about its start until it is out of all bodies, in which the strand's root is so deep each. Returns whether it was in one.
     fn turn_out<'a: 'b, 'b, I>(&mut self, colliders: impl Fn() -> I) -> bool
     where
         I: Iterator<Item = (&'b Collider<'a>, f64)>,
@@ -206,7 +209,7 @@ impl Link {
                 from,
                 to,
                 keep,
-                along: self.along[1],
+                leads_out: self.leads_out[1],
                 dt: self.dt,
             };
             let is_in = keep - distance > deepest.0;
@@ -290,7 +293,6 @@ mod tests {
                 ways.to[k].set(lane, above);
             }
         }
-        ways.look_at_roots::<Lane>(&bodies);
         let before = state.clone();
         let turned = keep_out::<Lane>(&batch, &mut state, &bodies, &mut ways, batch.used);
         assert_eq!(turned, batch.used);

@@ -34,7 +34,7 @@ pub(super) struct Lack {
 }
 
 impl Lack {
-    /// Of the link between two particles with these ways, `length` metres long, in bodies from which the strand's root is so far each.
+    /// Of the link between two particles with these ways, `length` metres long, in bodies in which the strand's root is so deep each.
     pub(super) fn deepest<'a: 'b, 'b>(
         colliders: impl Iterator<Item = (&'b Collider<'a>, f64)>,
         ends: [Path; 2],
@@ -46,7 +46,7 @@ impl Lack {
             if collider.shape.is_sampled() {
                 continue;
             }
-            let ends = ends.map(|path| path.from_root(root));
+            let ends = ends.map(|path| path.led_out(root));
             let Some(lack) = Self::of((body, collider), &ends, length) else {
                 continue;
             };
@@ -205,7 +205,7 @@ mod tests {
             from,
             to,
             keep: 0.0,
-            along: 0.0,
+            leads_out: 0.0,
             dt: 1.0 / 60.0,
         };
         let still = |at: DVec3| path(at, at);

@@ -12,8 +12,9 @@ pub(super) struct Path {
     pub from: DVec3,
     pub to: DVec3,
     pub keep: f64,
-    /// How far it may be from the root of its strand, in m: [`LEADS_OUT`] of the hair between them.
-    pub along: f64,
+    /// How much farther out of a body than the root of its strand it may have to be, in m: [`LEADS_OUT`](crate::LEADS_OUT) of the hair
+    /// between them.
+    pub leads_out: f64,
     pub dt: f64,
 }
 
@@ -26,26 +27,23 @@ pub(super) struct Plane {
 }
 
 impl Path {
-    /// The same against a body from which the strand's root is so far, in m; less than 0 inside.
+    /// The same against a body in which the strand's root is so deep: its distance from the surface in m, less than 0.
     #[inline(always)]
-    pub(super) fn from_root(self, root: f64) -> Self {
+    pub(super) fn led_out(self, root: f64) -> Self {
         Self {
-            keep: self.keep.min(root + self.along),
+            keep: self.keep.min(root + self.leads_out),
             ..self
         }
     }
 
-    /// The body whose plane the path's end is deepest behind, of some from which the strand's root is so far each.
+    /// The body whose plane the path's end is deepest behind.
     pub(super) fn first<'a, 'b>(
         &self,
-        colliders: impl Iterator<Item = (&'b Collider<'a>, f64)>,
-    ) -> Option<(&'b Collider<'a>, Plane)>
-    where
-        'a: 'b,
-    {
+        colliders: &'b [Collider<'a>],
+    ) -> Option<(&'b Collider<'a>, Plane)> {
         let mut best: Option<(&Collider, Plane)> = None;
-        for (collider, root) in colliders {
-            let Some(plane) = self.from_root(root).against(collider) else {
+        for collider in colliders {
+            let Some(plane) = self.against(collider) else {
                 continue;
             };
             if best.as_ref().is_none_or(|(_, b)| plane.depth > b.depth) {
