@@ -354,3 +354,25 @@ fn a_deleted_style_that_is_not_named_leaves_no_copy() {
     harness.state_mut().studio.save();
     assert_eq!(count(), 0);
 }
+
+/// A name that is typed letter by letter is another one for a moment: what it named comes back with it.
+#[test]
+fn a_deleted_style_outlives_a_name_that_is_being_typed() {
+    let looks = Looks::new();
+    let style = looks.read("bob.style.ron");
+    let copies = looks.path("copies");
+    let recovery = document::Recovery::in_folder(&copies);
+    let size = Vec2::new(1280.0, 800.0);
+    let mut harness = recovering(Some(looks.path("look.ron")), size, recovery);
+    harness.run_steps(3);
+    std::fs::remove_file(looks.path("bob.style.ron")).unwrap();
+    let count = move || std::fs::read_dir(&copies).map_or(0, Iterator::count);
+    wait_for(&mut harness, "the copy", |_| count() > 0);
+    for text in [LOOK.replace("bob.style", "bo.style"), LOOK.to_owned()] {
+        harness.state_mut().studio.write(Preset, text, None);
+        harness.run_steps(2);
+    }
+    let documents = harness.state().studio.documents.as_ref().unwrap();
+    let there = documents.get(Style).expect("the style is open");
+    assert_eq!(&**there.text(), style);
+}
