@@ -62,7 +62,7 @@ use crate::{
 #[cfg(target_arch = "x86_64")]
 use crate::lanes::avx2::Avx2;
 use batch::{Batch, BatchState};
-use contact::find::{Guard, settle_in};
+use contact::{find::settle_in, guard::Guard};
 use drive::{Anchored, Drive, Others, roots, whole_poses};
 use energy::whole_energy;
 use groups::step_all;

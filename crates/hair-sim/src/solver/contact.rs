@@ -2,10 +2,11 @@
 //! plane, behind which the particle is held in the stages of the step; two of different bodies where balls or capsules are among these. Other hair
 //! gives it one more: see [`super::locks`].
 //!
-//! Its parts, of which each imports those above it alone: `path`, the way of a place; `link`, what lies between two particles; `find`, which
-//! particles have a plane; `keep_out`, what is in a body all the same.
+//! Its parts, of which each imports those above it alone: `path`, the way of a place; `link`, what lies between two particles; `guard`, what is near a
+//! body at all; `find`, which particles have a plane; `keep_out`, what is in a body all the same.
 
 pub(crate) mod find;
+pub(crate) mod guard;
 pub(crate) mod keep_out;
 mod link;
 mod path;

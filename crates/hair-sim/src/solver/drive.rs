@@ -19,7 +19,8 @@ use super::{
     batch::{Batch, BatchState},
     contact::{
         Contact,
-        find::{self, Bodies, Guard, Planes},
+        find::{self, Bodies, Planes},
+        guard::Guard,
     },
     load::Loads,
     locks::Locks,

@@ -250,7 +250,7 @@ mod tests {
         params::{Natural, Params},
         pose::Pose,
         rest::RestStrand,
-        solver::contact::find::Guard,
+        solver::contact::guard::Guard,
     };
     use glam::Vec3 as Point;
 
