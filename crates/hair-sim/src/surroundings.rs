@@ -97,6 +97,9 @@ pub struct Surroundings<'a> {
     pub streams: &'a [Stream],
     /// What hair cannot enter.
     pub colliders: &'a [Collider<'a>],
+    /// How many of these, the first ones, are parts of one figure that leave hair room between them, as a head and its shoulders. What lies between any others
+    /// is kept out of both, which takes longer. 0 where nothing is known of them.
+    pub of_one_figure: usize,
     /// Places in style space for the points of all strands, in their order, to which [`Params::goal`](crate::Params::goal) pulls; `None`
     /// is the style itself.
     pub goal: Option<&'a [Vec3]>,
@@ -114,6 +117,7 @@ impl Default for Surroundings<'_> {
             wind_before: None,
             streams: &[],
             colliders: &[],
+            of_one_figure: 0,
             goal: None,
             anchors: &[],
         }

@@ -90,6 +90,7 @@ impl<'a> Drive<'a> {
     pub(crate) fn bodies(&self, before: Vec3, now: Vec3) -> Bodies<'a> {
         Bodies {
             colliders: self.surroundings.colliders,
+            of_one_figure: self.surroundings.of_one_figure,
             guards: self.guards,
             before,
             now,
@@ -272,13 +273,14 @@ pub(crate) fn prepare<T: Number>(
     }
     loads.touched.clear();
     loads.between = Mask::NONE;
+    loads.on_exact = Mask::NONE;
     if !drive.surroundings.colliders.is_empty() {
         if !state.skin_known {
             find::settle_in(batch, state, drive.surroundings.colliders);
             state.skin_known = true;
         }
         let bodies = drive.bodies(state.root, root.root);
-        let room = if bodies.have_links() {
+        let room = if bodies.may_wedge() {
             batch.planes_with_second()
         } else {
             batch.planes
@@ -294,10 +296,11 @@ pub(crate) fn prepare<T: Number>(
             ways: &mut loads.ways,
         };
         let mut lifts = std::mem::take(&mut state.lifts);
-        let (found, between) =
+        let (found, [between, on_exact]) =
             find::detect::<T>((batch, &*state), &bodies, active, planes, &mut lifts);
         stats.contacts = found;
         loads.between = Mask::new(between);
+        loads.on_exact = Mask::new(on_exact);
         state.lifts = lifts;
     }
     if let Some((index, locks)) = drive.locks {

@@ -33,6 +33,8 @@ pub(crate) struct Loads {
     pub touched: Vec<usize>,
     /// The strands that two bodies have planes for in this step, of which links count for one.
     pub between: Mask,
+    /// Those that are near one whose shape is exact: a ball or a capsule.
+    pub on_exact: Mask,
     /// What planes of bodies were found by.
     pub ways: Ways,
 }
@@ -51,6 +53,7 @@ impl Loads {
             contacts: vec![Contact::NONE; planes],
             touched: Vec::with_capacity(planes),
             between: Mask::NONE,
+            on_exact: Mask::NONE,
             ways: Ways::new(count),
         }
     }

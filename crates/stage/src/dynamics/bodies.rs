@@ -54,6 +54,11 @@ impl Bodies {
         Self { head, shoulders }
     }
 
+    /// How many of [`colliders`](Self::colliders), the first ones, are head and shoulders.
+    pub fn of_figure(&self) -> usize {
+        usize::from(self.head.is_some()) + usize::from(self.shoulders.is_some())
+    }
+
     /// All bodies in a step of this script between two times (seconds), at which the figure stands so.
     pub fn colliders<'a>(
         &'a self,

@@ -574,6 +574,7 @@ impl Dynamics {
             wind_before: Some(wind_before),
             streams: &streams,
             colliders: &colliders,
+            of_one_figure: self.bodies.of_figure(),
             goal: self.shapes.as_ref().map(|_| &self.goal[..]),
             anchors: &[],
         };

@@ -70,6 +70,8 @@ impl Ways {
 #[derive(Clone, Copy)]
 pub(crate) struct Bodies<'a> {
     pub colliders: &'a [Collider<'a>],
+    /// As [`Surroundings`](crate::Surroundings) has it.
+    pub of_one_figure: usize,
     pub guards: &'a [Guard],
     pub before: Vec3,
     pub now: Vec3,
@@ -81,6 +83,12 @@ impl Bodies<'_> {
     #[inline]
     pub(crate) fn have_links(&self) -> bool {
         self.guards.iter().any(|guard| guard.has_links)
+    }
+
+    /// Whether two of them may press hair between them.
+    #[inline]
+    pub(crate) fn may_wedge(&self) -> bool {
+        self.have_links() || self.guards.len() > self.of_one_figure.max(1)
     }
 
     /// A plane of a body as a strand's surface.
@@ -132,46 +140,44 @@ pub(crate) fn settle_in(batch: &Batch, state: &mut BatchState, colliders: &[Coll
     }
 }
 
-/// Finds the planes of a step. Returns the number of particles that have one, whose places on the strands are added to `touched`, and
-/// the strands that are between two bodies.
+/// Finds the planes of a step. Returns the number of particles that have one, whose places on the strands are added to `touched`, the strands that are between two
+/// bodies, and those that are near one that links count for.
 pub(crate) fn detect<T: Number>(
     (batch, state): (&Batch, &BatchState),
     bodies: &Bodies,
     active: Mask,
     planes: Planes,
     lifts: &mut Vec<Lane>,
-) -> (usize, [bool; LANES]) {
-    if bodies.have_links() {
+) -> (usize, [[bool; LANES]; 2]) {
+    if bodies.may_wedge() {
         lifts.resize(batch.count(), Lane::ZERO);
-        let mut between = [Between::default(); LANES];
-        let found = detect_with_links::<T>(
-            (batch, state),
-            bodies,
-            active,
-            planes,
-            (lifts, &mut between),
-        );
-        (found, between.map(|own| own.links_count && own.others))
+        let mut near = [Near::default(); LANES];
+        let found =
+            detect_with_links::<T>((batch, state), bodies, active, planes, (lifts, &mut near));
+        let between = near.map(|own| own.others && own.wedges);
+        (found, [between, near.map(|own| own.links_count)])
     } else {
         lifts.clear();
         let found = detect_alone::<T>((batch, state), bodies, active, planes);
-        (found, [false; LANES])
+        (found, [[false; LANES]; 2])
     }
 }
 
 /// Which bodies have planes for a strand.
 #[derive(Clone, Copy, Default)]
-struct Between {
+struct Near {
     first: Option<usize>,
-    /// Whether there are others than the first, and any that links count for.
+    /// Whether there are others than the first, any that isn't of the figure, and any that links count for.
     others: bool,
+    wedges: bool,
     links_count: bool,
 }
 
-impl Between {
-    fn note(&mut self, body: usize, guard: &Guard) {
+impl Near {
+    fn note(&mut self, body: usize, bodies: &Bodies) {
         self.others |= *self.first.get_or_insert(body) != body;
-        self.links_count |= guard.has_links;
+        self.wedges |= body >= bodies.of_one_figure;
+        self.links_count |= bodies.guards[body].has_links;
     }
 }
 
@@ -250,6 +256,7 @@ fn detect_alone<T: Number>(
                         from: from.get(lane),
                         to: to.get(lane),
                         keep: keep[lane],
+                        lift: 0.0,
                         leads_out: f64::INFINITY,
                         dt: bodies.dt,
                     };
@@ -272,7 +279,7 @@ fn detect_with_links<T: Number>(
     bodies: &Bodies,
     active: Mask,
     planes: Planes,
-    (lifts, between): (&mut [Lane], &mut [Between; LANES]),
+    (lifts, bodies_near): (&mut [Lane], &mut [Near; LANES]),
 ) -> usize {
     T::run(
         #[inline(always)]
@@ -325,7 +332,7 @@ fn detect_with_links<T: Number>(
                         continue;
                     }
                     let lift = &mut lifts[k][lane];
-                    let of = (lift, &mut between[lane]);
+                    let of = (lift, &mut bodies_near[lane]);
                     let [surface, second] = looked.particle(k, lane, [last, after], of);
                     let Some(surface) = surface else { continue };
                     found += 1;
@@ -386,6 +393,7 @@ impl Looked<'_> {
             from: self.ways.from[k].get(lane),
             to: self.ways.to[k].get(lane),
             keep: self.batch.thickness[lane] + self.state.skin[k][lane],
+            lift: 0.0,
             leads_out: LEADS_OUT * self.batch.along[k][lane],
             dt: self.bodies.dt,
         }
@@ -401,14 +409,14 @@ impl Looked<'_> {
         Lack::deepest(colliders, ends, self.batch.links[k].length[lane])
     }
 
-    /// The planes of particle `k`, between links that lack this, where `last_lift` is by how much it was farther from a body than it would be alone, and `between` the bodies that have any: that which
+    /// The planes of particle `k`, between links that lack this, where `last_lift` is by how much it was farther from a body than it would be alone, and `near` the bodies that have any: that which
     /// it is deepest behind, and the one of another body. Held by one alone, what lies between two bodies would be thrown from one to the other for ever.
     fn particle(
         &self,
         k: usize,
         lane: usize,
         links: [Option<Lack>; 2],
-        (last_lift, between): (&mut f64, &mut Between),
+        (last_lift, near): (&mut f64, &mut Near),
     ) -> [Option<Surface>; 2] {
         let path = self.path(k, lane);
         let [mut best, mut second]: [Option<(&Collider, Plane)>; 2] = [None, None];
@@ -433,6 +441,7 @@ impl Looked<'_> {
             let path = path.led_out(root);
             let lifted = Path {
                 keep: path.keep + lift,
+                lift,
                 ..path
             };
             let crossed = links
@@ -443,7 +452,7 @@ impl Looked<'_> {
             let Some(plane) = planes.reduce(|a, b| if b.depth > a.depth { b } else { a }) else {
                 continue;
             };
-            between.note(index, &self.bodies.guards[index]);
+            near.note(index, self.bodies);
             let is_deeper = |than: &Option<(_, Plane)>| {
                 than.as_ref().is_none_or(|(_, b)| plane.depth > b.depth)
             };

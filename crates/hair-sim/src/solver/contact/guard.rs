@@ -245,6 +245,7 @@ mod tests {
                 from,
                 to,
                 keep: 1e-3,
+                lift: 0.0,
                 leads_out: 0.0,
                 dt: 0.01,
             };

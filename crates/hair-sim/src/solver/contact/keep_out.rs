@@ -209,6 +209,7 @@ impl Link {
                 from,
                 to,
                 keep,
+                lift: 0.0,
                 leads_out: self.leads_out[1],
                 dt: self.dt,
             };
@@ -280,6 +281,7 @@ mod tests {
         let colliders = [Collider::fixed(ridge, Pose::IDENTITY)];
         let bodies = Bodies {
             colliders: &colliders,
+            of_one_figure: 0,
             guards: &colliders.each_ref().map(Guard::new),
             before: state.root,
             now: state.root,

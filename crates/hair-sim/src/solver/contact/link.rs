@@ -205,6 +205,7 @@ mod tests {
             from,
             to,
             keep: 0.0,
+            lift: 0.0,
             leads_out: 0.0,
             dt: 1.0 / 60.0,
         };

@@ -6,12 +6,18 @@ use crate::collision::shape::{Collider, Shape};
 
 use super::{NEAR, PUSH_OUT, TOUCH};
 
+/// The speed in m/s at which a particle that is nearer to a body than it keeps for its links' sake is pushed out. What a link needs grows as fast as the link
+/// turns: pushed fast, a strand that swings against a ball was thrown back as far as it came, for ever. Slower still its links would be in the body for long.
+const LIFT_OUT: f64 = 1e-3;
+
 /// A particle's way through the world in a step of `dt` seconds, on which it keeps `keep` metres from bodies.
 #[derive(Clone, Copy)]
 pub(super) struct Path {
     pub from: DVec3,
     pub to: DVec3,
     pub keep: f64,
+    /// How much of that is for the sake of its links, in m.
+    pub lift: f64,
     /// How much farther out of a body than the root of its strand it may have to be, in m: [`LEADS_OUT`](crate::LEADS_OUT) of the hair
     /// between them.
     pub leads_out: f64,
@@ -81,7 +87,10 @@ impl Path {
             } else {
                 (from - first * (start - collider.grown(from)), first)
             };
-            let level = (start + PUSH_OUT * self.dt).min(0.0);
+            let own = start + self.lift;
+            let pushed = (own + PUSH_OUT * self.dt).min(0.0) - self.lift;
+            let lifted = (start + LIFT_OUT * self.dt).min(0.0);
+            let level = pushed.max(lifted);
             return Some(self.plane(at + normal * level, normal, to));
         }
         // What the surface comes nearer by itself, where the shape changes.
