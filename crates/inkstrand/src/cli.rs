@@ -58,7 +58,8 @@ it where one of them has changed since, and says which; layers, camera and light
 Examples:
   inkstrand simulate look.ron --motion walk.motion.ron --frames 0-95 -o walk.strands.ron
   inkstrand render look.ron --motion walk.motion.ron --bake walk.strands.ron --frames 0-95
-      the pictures of `render` without --bake, and no time spent on simulation";
+      the pictures of `render` without --bake (nearly, with `clump: (normal: material)`), and no time
+      spent on simulation";
 
 const COMPLETIONS_EXAMPLES: &str = "\
 Examples:

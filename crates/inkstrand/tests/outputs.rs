@@ -229,6 +229,53 @@ fn two_files_of_one_path_are_refused() {
     inkstrand(&folder, &line).assert().success();
 }
 
+/// Materials, pictures and buffers that meshes name are read, too, whoever names the meshes.
+#[test]
+fn what_meshes_are_read_from_is_not_written_over() {
+    const OBJ: &str =
+        "mtllib h.mtl\nusemtl skin\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n";
+    const GLTF: &str = r#"{
+        "asset": {"version": "2.0"}, "nodes": [{"mesh": 0}],
+        "buffers": [{"byteLength": 36, "uri": "buf_0003.png"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}]
+    }"#;
+    let folder = folder();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    write("h.obj", OBJ);
+    write("h.mtl", "newmtl skin\nmap_Kd skin.png\n");
+    write("skin.png", "a picture");
+    write("body.gltf", GLTF);
+    write("buf_0003.png", "36 bytes");
+    write(
+        "body.motion.ron",
+        "(version: 1, bodies: [(name: \"b\", shape: mesh, file: \"body.gltf\")])",
+    );
+    let with = |more: &str| PRESET.replace("version: 1,", &format!("version: 1, {more},"));
+    write("head.ron", &with("head: (file: \"h.obj\")"));
+    write("meshes.ron", &with("meshes: [(file: \"h.obj\")]"));
+    write(
+        "both.ron",
+        "(version: 1, objects: [(preset: \"meshes.ron\")], scene: (size: (40, 30), samples: 1))",
+    );
+    let before = contents(folder.path());
+    let frames = "render small.ron --motion body.motion.ron --frames 0-4 -o buf_####.png";
+    for (line, file) in [
+        ("render head.ron -o skin.png", "skin.png"),
+        ("render meshes.ron -o skin.png", "skin.png"),
+        ("render both.ron -o skin.png", "skin.png"),
+        ("render small.ron --head h.obj -o skin.png", "skin.png"),
+        ("render head.ron --stats h.mtl", "h.mtl"),
+        (frames, "buf_0003.png"),
+    ] {
+        let arguments: Vec<&str> = line.split(' ').collect();
+        let said = contains(file).and(contains("is read"));
+        inkstrand(&folder, &arguments).assert().code(2).stderr(said);
+        assert!(contents(folder.path()) == before, "{line}");
+    }
+}
+
 #[test]
 fn what_cannot_be_written_is_said_before_the_work() {
     let folder = folder();

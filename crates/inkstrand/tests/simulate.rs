@@ -235,6 +235,24 @@ fn a_bake_has_no_more_frames_than_it_has() {
     inkstrand(&folder, &line).assert().success();
 }
 
+/// Where poses are held for some frames, the bake must have the frames that are held.
+#[test]
+fn a_bake_has_the_poses_that_are_held() {
+    let folder = folder();
+    let bake = ["simulate", "-o", "b.strands.ron", "--frames", "5-9"];
+    inkstrand(&folder, &bake).assert().success();
+    let draw = |frames: &str| {
+        let line = ["render", "--size", "20x20", "--bake", "b.strands.ron"];
+        let more = ["-o", "a.png", "--set", "motion.on=4", "--frames", frames];
+        inkstrand(&folder, &[&line[..], &more].concat()).assert()
+    };
+    draw("5-9").code(1).stderr(contains(
+        "the bake goes from frame 5 (0.20833333 s) to 9 (0.375 s), \
+         and frame 4 (0.16666667 s), which is held until frame 5 (0.20833333 s), is asked for",
+    ));
+    draw("8-9").success();
+}
+
 #[test]
 fn a_bake_is_made_anew_in_the_place_of_the_one_that_the_preset_names() {
     let folder = folder();

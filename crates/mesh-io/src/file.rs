@@ -60,6 +60,30 @@ pub enum MeshError {
     ),
 }
 
+impl MeshError {
+    fn format(path: &Path) -> Self {
+        Self::Format {
+            path: path.into(),
+            found: ending(path),
+        }
+    }
+
+    fn ply(path: &Path, source: PlyError) -> Self {
+        Self::Ply {
+            path: path.into(),
+            source,
+        }
+    }
+
+    #[cfg(feature = "gltf")]
+    fn gltf(path: &Path, source: GltfError) -> Self {
+        Self::Gltf {
+            path: path.into(),
+            source: Box::new(source),
+        }
+    }
+}
+
 /// `file:line: what`, which editors jump to.
 fn in_obj(path: &Path, error: &ObjError) -> String {
     let path = path.display();
@@ -110,6 +134,36 @@ pub fn is_model(path: &Path, bytes: &[u8]) -> bool {
     Format::of(path, bytes).is_some()
 }
 
+/// The files that a file of meshes names, in its folder or below. They need not be there.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct NamedFiles {
+    /// Those that hold the numbers of meshes and animations: buffers of glTF.
+    pub buffers: Vec<PathBuf>,
+    /// Those of materials and pictures.
+    pub paint: Vec<PathBuf>,
+}
+
+/// What else is read where a file of meshes is, without reading its meshes.
+///
+/// # Errors
+///
+/// When the file cannot be read, is of another format, or does not even begin as one of its own.
+pub fn named_files(path: &Path) -> Result<NamedFiles, MeshError> {
+    let bytes = read_bytes(path, MOST_OF_DATA)?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    match Format::of(path, &bytes) {
+        Some(Format::Obj) => Ok(obj::named_files(&String::from_utf8_lossy(&bytes), folder)),
+        Some(Format::Ply) => ply::named_files(&bytes, folder).map_err(|e| MeshError::ply(path, e)),
+        #[cfg(feature = "gltf")]
+        Some(Format::Gltf) => {
+            crate::gltf::named_files(&bytes, folder).map_err(|e| MeshError::gltf(path, e))
+        }
+        #[cfg(not(feature = "gltf"))]
+        Some(Format::Gltf) => Err(MeshError::WithoutGltf(path.into())),
+        None => Err(MeshError::format(path)),
+    }
+}
+
 /// Reads a file of meshes. The reader is chosen by the name's ending, else by the file's first bytes.
 ///
 /// # Errors
@@ -136,23 +190,14 @@ pub fn model_of_bytes(path: &Path, bytes: &[u8]) -> Result<Model, MeshError> {
                 }
             })
         }
-        Some(Format::Ply) => ply::from_bytes(bytes, folder).map_err(|source| MeshError::Ply {
-            path: path.into(),
-            source,
-        }),
+        Some(Format::Ply) => ply::from_bytes(bytes, folder).map_err(|e| MeshError::ply(path, e)),
         #[cfg(feature = "gltf")]
         Some(Format::Gltf) => {
-            crate::gltf::from_bytes(bytes, folder).map_err(|source| MeshError::Gltf {
-                path: path.into(),
-                source: Box::new(source),
-            })
+            crate::gltf::from_bytes(bytes, folder).map_err(|e| MeshError::gltf(path, e))
         }
         #[cfg(not(feature = "gltf"))]
         Some(Format::Gltf) => Err(MeshError::WithoutGltf(path.into())),
-        None => Err(MeshError::Format {
-            path: path.into(),
-            found: ending(path),
-        }),
+        None => Err(MeshError::format(path)),
     }
 }
 
@@ -187,9 +232,61 @@ impl BoneMotion {
     ) -> Result<T, MeshError> {
         let bytes = read_bytes(path, MOST_OF_DATA)?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        read(&bytes, folder).map_err(|source| MeshError::Gltf {
-            path: path.into(),
-            source: Box::new(source),
-        })
+        read(&bytes, folder).map_err(|e| MeshError::gltf(path, e))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    #[test]
+    fn what_a_file_of_meshes_names_is_told_without_its_meshes() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        fs::create_dir(path("sub")).unwrap();
+        for name in ["sub/skin.png", "up.png"] {
+            fs::write(path(name), "").unwrap();
+        }
+        fs::write(path("sub/a.mtl"), "newmtl skin\nmap_Kd skin.png\n").unwrap();
+        let named = |name: &str, text: &str| {
+            fs::write(path(name), text).unwrap();
+            named_files(&path(name))
+        };
+        let paint = |names: &[&str]| NamedFiles {
+            paint: names.iter().map(|name| path(name)).collect(),
+            ..NamedFiles::default()
+        };
+
+        // One library isn't there, and one is out of the folder.
+        let obj = "v 0 0 0\n  mtllib sub/a.mtl\nmtllib gone.mtl\nmtllib ../b.mtl\nusemtl skin\n";
+        let files = paint(&["sub/a.mtl", "gone.mtl", "sub/skin.png"]);
+        assert_eq!(named("a.obj", obj).unwrap(), files);
+
+        let ply = "ply\nformat ascii 1.0\ncomment TextureFile up.png\nend_header\n";
+        assert_eq!(named("a.ply", ply).unwrap(), paint(&["up.png"]));
+        assert!(named("b.ply", "no ply").is_err());
+
+        let gltf = r#"{
+            "asset": {"version": "2.0"},
+            "buffers": [{"uri": "my%20a.bin"}, {"uri": "data:,"}, {"uri": "../b.bin"}, {}],
+            "images": [{"uri": "sub/skin.png"}, {"bufferView": 0}]
+        }"#;
+        let found = named("a.gltf", gltf);
+        #[cfg(feature = "gltf")]
+        assert_eq!(
+            found.unwrap(),
+            NamedFiles {
+                buffers: vec![path("my a.bin")],
+                ..paint(&["sub/skin.png"])
+            }
+        );
+        #[cfg(not(feature = "gltf"))]
+        assert!(matches!(found, Err(MeshError::WithoutGltf(_))));
+        assert!(matches!(
+            named("a.stl", "solid"),
+            Err(MeshError::Format { .. })
+        ));
     }
 }

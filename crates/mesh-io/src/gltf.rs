@@ -15,6 +15,8 @@ pub use error::{GltfError, PartError};
 
 use std::path::Path;
 
+use crate::beside::file_of_uri;
+use crate::file::NamedFiles;
 use crate::model::Model;
 use crate::read::shown;
 use document::Document;
@@ -88,6 +90,20 @@ pub fn from_bytes(bytes: &[u8], folder: &Path) -> Result<Model, GltfError> {
         Some(mesh) => Err(GltfError::Far(shown(&mesh.name))),
         None => Ok(model),
     }
+}
+
+/// The files, in `folder` or below, that a file's bytes name.
+pub(crate) fn named_files(bytes: &[u8], folder: &Path) -> Result<NamedFiles, GltfError> {
+    let (document, _) = Document::read(bytes)?;
+    let file = |uri: &Option<String>| file_of_uri(folder, uri.as_deref()?);
+    Ok(NamedFiles {
+        buffers: (document.buffers.iter())
+            .filter_map(|buffer| file(&buffer.uri))
+            .collect(),
+        paint: (document.images.iter())
+            .filter_map(|image| file(&image.uri))
+            .collect(),
+    })
 }
 
 impl Model {

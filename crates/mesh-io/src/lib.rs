@@ -53,7 +53,7 @@ mod sequence;
 mod track;
 mod welded;
 
-pub use file::{FORMATS, MeshError, is_model, model_of_bytes, read_model};
+pub use file::{FORMATS, MeshError, NamedFiles, is_model, model_of_bytes, named_files, read_model};
 pub use gltf::BoneMotion;
 #[cfg(feature = "gltf")]
 pub use gltf::{GltfError, PartError, from_bytes as gltf_from_bytes};

@@ -1,7 +1,7 @@
 //! Material libraries of Wavefront OBJ files.
 
 use std::collections::{HashMap, HashSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::beside::file_in;
 use crate::model::{Alpha, Image, ImageSource, Material, Texture, Wrap};
@@ -16,6 +16,8 @@ pub(crate) struct Library {
     pub materials: Vec<Material>,
     pub images: Vec<Image>,
     pub notes: Vec<String>,
+    /// Its own files, whether they are there or not.
+    pub files: Vec<PathBuf>,
     names: HashMap<String, usize>,
     pictures: HashMap<String, Option<usize>>,
     missing: HashSet<String>,
@@ -64,6 +66,7 @@ impl Library {
                 "the materials of `{name}` are not in the file's folder"
             ));
         };
+        self.files.push(path.clone());
         let bytes = match read_bytes(&path, MOST_OF_TEXT) {
             Ok(bytes) => bytes,
             Err(error) => return self.note(format!("no materials: {error}")),

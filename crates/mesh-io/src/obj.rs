@@ -6,7 +6,8 @@ use std::path::Path;
 
 use glam::{Vec2, Vec3};
 
-use crate::model::{Mesh, Model};
+use crate::file::NamedFiles;
+use crate::model::{ImageSource, Mesh, Model};
 use crate::mtl::Library;
 use crate::read::shown;
 
@@ -120,6 +121,25 @@ pub fn from_text(text: &str, folder: &Path) -> Result<Model, ObjError> {
     model.images = library.images;
     model.notes.extend(library.notes);
     Ok(model)
+}
+
+/// The libraries of materials, in `folder` or below, that an OBJ text names, and their pictures.
+pub(crate) fn named_files(text: &str, folder: &Path) -> NamedFiles {
+    let lines = logical_lines(text);
+    let names = lines.filter_map(|(_, line)| {
+        let (key, name) = line.trim_start().split_once(char::is_whitespace)?;
+        (key == "mtllib").then(|| name.trim().to_owned())
+    });
+    let library = Library::read(folder, &names.collect::<Vec<_>>());
+    let pictures = library.images.into_iter();
+    let pictures = pictures.filter_map(|image| match image.source {
+        ImageSource::File(path) => Some(path),
+        ImageSource::Bytes(_) => None,
+    });
+    NamedFiles {
+        paint: library.files.into_iter().chain(pictures).collect(),
+        ..NamedFiles::default()
+    }
 }
 
 /// What of a file makes its shape.

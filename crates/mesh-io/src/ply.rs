@@ -13,6 +13,7 @@ mod numbers;
 use self::header::{Element, Header};
 use self::numbers::Numbers;
 use crate::beside::file_in;
+use crate::file::NamedFiles;
 use crate::model::{Attribute, Image, ImageSource, Material, Mesh, Model, Texture, Wrap};
 use crate::read::shown;
 
@@ -99,6 +100,16 @@ pub fn from_bytes(bytes: &[u8], folder: &Path) -> Result<Model, PlyError> {
     }
     model.meshes.push(mesh);
     Ok(model)
+}
+
+/// The picture, in `folder` or below, that a file's header names.
+pub(crate) fn named_files(bytes: &[u8], folder: &Path) -> Result<NamedFiles, PlyError> {
+    let texture = Header::read(bytes)?.texture;
+    let file = texture.and_then(|name| file_in(folder, &name));
+    Ok(NamedFiles {
+        paint: file.into_iter().collect(),
+        ..NamedFiles::default()
+    })
 }
 
 #[derive(Default)]

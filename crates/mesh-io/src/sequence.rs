@@ -105,6 +105,16 @@ impl Sequence {
         &self.files
     }
 
+    /// The first numbers beside each other between which files are missing: they are farther apart than others are.
+    #[must_use]
+    pub fn gap(&self) -> Option<[u64; 2]> {
+        let numbers = self.files.keys().copied();
+        let mut pairs = numbers.clone().zip(numbers.skip(1));
+        let least = pairs.clone().map(|(one, next)| next - one).min()?;
+        let gap = pairs.find(|(one, next)| next - one > least);
+        gap.map(|(one, next)| [one, next])
+    }
+
     /// The frame that is shown `time` seconds after the first one, of `fps` a second: the last one that there is until then. Before
     /// the first it is the first, after the last the last.
     #[must_use]
@@ -202,6 +212,22 @@ mod tests {
         ] {
             assert_eq!(sequence.frame_at(time, 24.0), frame, "{time}");
         }
+    }
+
+    #[test]
+    fn a_gap_is_where_numbers_are_farther_apart_than_elsewhere() {
+        let folder = tempfile::tempdir().unwrap();
+        let gap = |name: &str, numbers: &[u64]| {
+            for number in numbers {
+                fs::write(folder.path().join(format!("{name}.{number}.obj")), "").unwrap();
+            }
+            let path = folder.path().join(format!("{name}.#.obj"));
+            Sequence::find(&path).unwrap().gap()
+        };
+        assert_eq!(gap("one", &[7]), None);
+        assert_eq!(gap("whole", &[3, 4, 5]), None);
+        assert_eq!(gap("tens", &[0, 10, 20]), None);
+        assert_eq!(gap("gap", &[5, 8, 9, 12]), Some([5, 8]));
     }
 
     #[test]

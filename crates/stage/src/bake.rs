@@ -147,12 +147,17 @@ pub(crate) fn difference(own: &Strands, other: &Strands) -> Option<String> {
     })
 }
 
-/// Holds `time` (seconds) against the bake of hair, if it has one, in a scene of so many frames a second.
+/// Holds `time` (seconds), at which hair is as at the time `held`, against its bake, if it has one, in a scene of so many frames a second.
 ///
 /// # Errors
 ///
 /// When the bake does not go as far.
-pub(crate) fn check_reaches(hair: &HairModel, fps: f32, time: f32) -> Result<(), StageError> {
+pub(crate) fn check_reaches(
+    hair: &HairModel,
+    fps: f32,
+    time: f32,
+    held: f32,
+) -> Result<(), StageError> {
     let (Some(path), Some(motion)) = (&hair.bake, &hair.file.motion) else {
         return Ok(());
     };
@@ -161,14 +166,23 @@ pub(crate) fn check_reaches(hair: &HairModel, fps: f32, time: f32) -> Result<(),
     };
     // What is nearer than this to a frame is that frame.
     let slack = 0.01 / fps;
-    if (first - slack..=last + slack).contains(&time) {
+    let has = |time: f32| (first - slack..=last + slack).contains(&time);
+    if has(time) && has(held) {
         return Ok(());
     }
     let frame = |time: f32| format!("{} ({time} s)", (time * fps).round());
+    let asked = match has(time) {
+        false => frame(time),
+        true => format!(
+            "{}, which is held until frame {},",
+            frame(held),
+            frame(time)
+        ),
+    };
     Err(StageError::BeyondBake {
         path: path.clone(),
         first: frame(first),
         last: frame(last),
-        asked: frame(time),
+        asked,
     })
 }

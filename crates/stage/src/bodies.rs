@@ -29,6 +29,8 @@ pub(crate) struct Body {
     own: Own,
     /// Times ascending.
     keys: Vec<Key>,
+    /// That files of its sequence are missing.
+    gap_note: Option<String>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -67,8 +69,13 @@ impl Body {
         matches!(&self.own, Own::Mesh(forms) if forms.deforms())
     }
 
-    /// That its mesh has no inside, for those who listed it.
-    pub fn open_note(&self) -> Option<String> {
+    /// What is odd about it, for those who listed it.
+    pub fn notes(&self) -> impl Iterator<Item = String> {
+        self.gap_note.iter().cloned().chain(self.open_note())
+    }
+
+    /// That its mesh has no inside.
+    fn open_note(&self) -> Option<String> {
         let Own::Mesh(forms) = &self.own else {
             return None;
         };

@@ -100,6 +100,20 @@ impl<'r> Preset<'r> {
         paths
     }
 
+    /// As [`Self::files`], with those that the meshes among them name: buffers, materials and pictures. These meshes are opened
+    /// for that.
+    #[must_use]
+    pub fn all_files(&self, files: &Files) -> Vec<PathBuf> {
+        let mut paths = self.files(files);
+        let meshes = paths.iter().filter(|path| is_mesh_file(path));
+        // Who reads the meshes tells what is wrong with them.
+        let named = meshes.filter_map(|path| mesh_io::named_files(path).ok());
+        let named = named.flat_map(|named| named.buffers.into_iter().chain(named.paint));
+        let named: Vec<PathBuf> = named.collect();
+        paths.extend(named);
+        paths
+    }
+
     /// The character whose animation moves the head.
     pub(crate) fn character_path(&self, files: &Files) -> Option<PathBuf> {
         let section = &self.sections.motion;

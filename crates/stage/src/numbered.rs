@@ -20,6 +20,21 @@ pub(crate) fn all_files(path: PathBuf, is_sequence: bool) -> Vec<PathBuf> {
     }
 }
 
+/// That files of a sequence are missing, in the `section` that names it: one form comes after the other, whatever their numbers are.
+pub(crate) fn gap_note(section: &str, sequence: &Sequence) -> Option<String> {
+    let gap = sequence.gap()?;
+    let [before, after] = gap.map(|number| {
+        let name = sequence
+            .files()
+            .get(&number)
+            .and_then(|file| file.file_name());
+        name.unwrap_or_default().to_string_lossy()
+    });
+    Some(format!(
+        "{section}: files are missing between `{before}` and `{after}`, and all that come after them come earlier"
+    ))
+}
+
 /// The forms that a mesh takes in time.
 pub(crate) struct Numbered {
     /// One or more.

@@ -84,7 +84,7 @@ impl Object {
         };
         let script = script::load(preset, files, &mut hair, head.as_ref(), &orientation)?;
         notes.extend(script.below.as_ref().and_then(script::Below::jump_note));
-        notes.extend(script.bodies.iter().filter_map(|body| body.open_note()));
+        notes.extend(script.bodies.iter().flat_map(|body| body.notes()));
         hair.choose_guides(&preset.sections.hair);
         hair.move_out_of_bodies(&script, &preset.sections.dynamics);
         bake::load(preset, files, &mut hair, notes)?;

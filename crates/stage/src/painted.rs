@@ -10,7 +10,7 @@ pub(crate) use shells::shells;
 use crate::files::StageError;
 use crate::meant::meant;
 use crate::names::Names;
-use crate::numbered::{Formed, MOST_CORNERS, MOST_FILES, Numbered};
+use crate::numbered::{Formed, MOST_CORNERS, MOST_FILES, Numbered, gap_note};
 use crate::preset::{AlphaChoice, MeshSection};
 use crate::things::{Beating, Placed, Thing};
 use glam::{Vec2, Vec3};
@@ -387,6 +387,7 @@ impl OfFile<'_> {
                 "there are {files} numbered files, and a mesh takes {MOST_FILES} at most"
             )));
         }
+        notes.extend(gap_note("meshes", &sequence));
         // For each mesh what it is in each file.
         let mut forms: Vec<Vec<PaintedMesh>> = Vec::new();
         let mut size = 0;

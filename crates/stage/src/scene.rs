@@ -5,6 +5,7 @@ use crate::files::{Files, StageError};
 use crate::hair::HairModel;
 use crate::head::HeadModel;
 use crate::look::Look;
+use crate::motion::held_time;
 use crate::object::Object;
 use crate::preset::{CameraSection, OrderChoice, Preset};
 use glam::Vec3;
@@ -189,15 +190,17 @@ impl Scene {
         mean_head(self.objects.iter().map(Object::head))
     }
 
-    /// Holds `time` (seconds) against the bakes of the scene's hair.
+    /// Holds `time` (seconds), and that of the pose that is held then, against the bakes of the scene's hair.
     ///
     /// # Errors
     ///
     /// When one of them doesn't go as far.
     pub fn check_time(&self, time: f32) -> Result<(), StageError> {
-        let hair = self.objects.iter().map(Object::hair);
-        hair.into_iter()
-            .try_for_each(|hair| bake::check_reaches(hair, self.fps(), time))
+        self.objects.iter().try_for_each(|object| {
+            let motion = &object.look().sections.motion;
+            let held = held_time(motion, self.fps(), f64::from(time)) as f32;
+            bake::check_reaches(object.hair(), self.fps(), time, held)
+        })
     }
 
     /// The length of the longest animation that moves a head, seconds; 0 without any.

@@ -7,7 +7,7 @@
 
 use effects::Registry;
 use glam::Vec3;
-use stage::{Files, Motion, Preset, Scene};
+use stage::{Bake, Files, Motion, Preset, Scene, Stage};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -248,6 +248,120 @@ fn meshes_move_and_change_their_form() {
         notes.contains("bodies: the mesh of `wall.0004.obj` is open"),
         "{notes}"
     );
+}
+
+#[test]
+fn files_that_are_missing_between_others_are_told() {
+    let numbered = "[(file: \"wall.####.obj\")], bodies: [(shape: mesh, file: \"wall.####.obj\")]";
+    let given = Given::new(TAIL, "(version: 1)", &format!("meshes: {numbered},"));
+    let path = |number: u32| given.folder.path().join(format!("wall.{number:04}.obj"));
+    for number in 1..=4 {
+        fs::write(path(number), cube([0.1; 3], [0.0, 0.0, 3.0])).unwrap();
+    }
+    let missing = || {
+        let notes = given.scene().unwrap().notes().to_vec();
+        let missing = notes.into_iter().filter(|note| note.contains("missing"));
+        missing.collect::<Vec<_>>()
+    };
+    assert_eq!(missing(), [""; 0]);
+    fs::remove_file(path(3)).unwrap();
+    let said = "files are missing between `wall.0002.obj` and `wall.0004.obj`, and all that come after them come earlier";
+    let mut expected = ["bodies", "meshes"].map(|section| format!("{section}: {said}"));
+    expected.sort();
+    let mut found = missing();
+    found.sort();
+    assert_eq!(found, expected);
+}
+
+/// Writes a glTF file of an octahedron, m, with its numbers beside it, where a byte more lies, and a picture.
+fn octahedron(folder: &Path, name: &str, radius: f32) {
+    let side = |axis: usize, bit: usize| {
+        let sign = if bit >> axis & 1 == 1 {
+            -radius
+        } else {
+            radius
+        };
+        Vec3::AXES[axis] * sign
+    };
+    let faces = (0..8).flat_map(|bit: usize| {
+        let [x, y, z] = [0, 1, 2].map(|axis| side(axis, bit));
+        // Counter-clockwise seen from outside.
+        match bit.count_ones() % 2 {
+            0 => [x, y, z],
+            _ => [x, z, y],
+        }
+    });
+    let numbers = faces.flat_map(|corner| corner.to_array());
+    let mut bytes: Vec<u8> = numbers.flat_map(f32::to_le_bytes).collect();
+    bytes.push(0);
+    fs::write(folder.join(format!("{name}.bin")), &bytes).unwrap();
+    fs::write(folder.join(format!("{name}.png")), "a picture").unwrap();
+    let text = format!(
+        r#"{{
+            "asset": {{"version": "2.0"}},
+            "nodes": [{{"mesh": 0}}],
+            "buffers": [{{"byteLength": 289, "uri": "{name}.bin"}}],
+            "bufferViews": [{{"buffer": 0, "byteLength": 288}}],
+            "accessors": [{{"bufferView": 0, "componentType": 5126, "count": 24, "type": "VEC3"}}],
+            "images": [{{"uri": "{name}.png"}}],
+            "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}}}]}}]
+        }}"#
+    );
+    fs::write(folder.join(format!("{name}.gltf")), text).unwrap();
+}
+
+#[test]
+fn a_bake_knows_the_numbers_beside_bodies_and_heads() {
+    let body =
+        |file: &str| format!("bodies: [(shape: mesh, file: \"{file}.gltf\", at: (0, 9, 0))]");
+    let script = format!("(version: 1, {})", body("own"));
+    let given = Given::new(TAIL, &script, &format!("{},", body("preset")));
+    let path = |name: &str| given.folder.path().join(name);
+    for (name, radius) in [("own", 0.1), ("preset", 0.1), ("head", 0.12)] {
+        octahedron(given.folder.path(), name, radius);
+    }
+    let registry = registry();
+    let preset = Preset::parse("look.ron", &given.preset, &registry).unwrap();
+    let files = Files {
+        head: Some(path("head.gltf")),
+        ..given.files()
+    };
+    let mut stage = Stage::new(&preset, &files).unwrap();
+    let mut bake = Bake::new(&preset, &files, &stage.scene).unwrap();
+    stage.advance_to(0.0).unwrap();
+    stage.record(0.0, &mut bake);
+    fs::write(path("bake.strands.ron"), stage.bake_text(bake).unwrap()).unwrap();
+
+    let files = Files {
+        bake: Some(path("bake.strands.ron")),
+        ..files
+    };
+    let with = |name: &str| {
+        let before = fs::read(path(name)).unwrap();
+        let mut bytes = before.clone();
+        *bytes.last_mut().unwrap() ^= 1;
+        fs::write(path(name), bytes).unwrap();
+        let refused = Stage::new(&preset, &files).err();
+        fs::write(path(name), before).unwrap();
+        refused.map(|error| error.to_string())
+    };
+    for (name, said) in [
+        ("head.bin", "head.buffers (head.bin) has changed since"),
+        (
+            "preset.bin",
+            "bodies.buffers (preset.bin, own.bin) has changed since",
+        ),
+        (
+            "own.bin",
+            "bodies.buffers (preset.bin, own.bin) has changed since",
+        ),
+    ] {
+        let refused = with(name).unwrap_or_default();
+        assert!(refused.contains(&format!(": {said};")), "{name}: {refused}");
+    }
+    for picture in ["head.png", "preset.png", "own.png"] {
+        assert_eq!(with(picture), None, "{picture}");
+    }
 }
 
 #[test]

@@ -177,7 +177,7 @@ fn check_outputs(
         .stats
         .as_deref()
         .filter(|path| *path != Path::new("-"));
-    let mut read = preset.files(files);
+    let mut read = preset.all_files(files);
     read.push(options.preset.clone());
     if let Some(path) = output.writes_over(&read, frames.clone()) {
         let message = format!(

@@ -73,7 +73,7 @@ fn check_output(
         let message = format!("-o {shown}: a bake's name must end in .strands.ron");
         return Err(Failure::Usage(message));
     }
-    let mut read = preset.files(files);
+    let mut read = preset.all_files(files);
     read.push(preset_file.to_owned());
     if read.iter().any(|path| is_same(path, output)) {
         let message = format!("-o {shown}: it is read, and cannot be written");

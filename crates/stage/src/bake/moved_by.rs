@@ -57,7 +57,14 @@ impl MovedBy {
             plain("scene.fps", sections.scene.fps.to_string()),
             plain("seed", preset.seed.to_string()),
         ];
-        causes.extend(buffers_cause(preset, files));
+        causes.extend(buffers_cause(
+            "gltf.buffers",
+            &character_buffers(preset, files),
+        ));
+        let head = head_file(preset, files);
+        causes.extend(buffers_cause("head.buffers", &mesh_buffers(head.iter())));
+        let bodies = body_files(preset, files)?;
+        causes.extend(buffers_cause("bodies.buffers", &mesh_buffers(&bodies)));
         causes.extend(dynamics);
         Ok(Self(causes))
     }
@@ -141,11 +148,7 @@ fn hair_cause(preset: &Preset, files: &Files, hair: &HairModel) -> Cause {
     let file = match hair.own_colors.is_empty() {
         true => chosen(files.hair.as_ref(), own, &files.preset_folder),
         // A character's own, which is the head.
-        false => chosen(
-            files.head.as_ref(),
-            preset.sections.head.file.as_ref(),
-            &files.preset_folder,
-        ),
+        false => head_file(preset, files),
     };
     let name = file.map_or_else(String::new, |path| format!(" of {}", file_name(&path)));
     hash.cause("hair", format!("{} strands{name}", strands.len()))
@@ -157,12 +160,7 @@ fn head_cause(preset: &Preset, files: &Files, hair: &HairModel) -> Result<Cause,
     // Where the file's axes and unit, given or guessed, put it.
     hash.numbers(hair.head.center.as_ref());
     hash.numbers(&[hair.head.height_m]);
-    let path = chosen(
-        files.head.as_ref(),
-        section.file.as_ref(),
-        &files.preset_folder,
-    );
-    let words = match path {
+    let words = match head_file(preset, files) {
         Some(path) => {
             hash.file(&path)?;
             file_name(&path)
@@ -177,6 +175,11 @@ fn head_cause(preset: &Preset, files: &Files, hair: &HairModel) -> Result<Cause,
     };
     hash.bytes(words.as_bytes());
     Ok(hash.cause("head", words))
+}
+
+fn head_file(preset: &Preset, files: &Files) -> Option<PathBuf> {
+    let own = preset.sections.head.file.as_ref();
+    chosen(files.head.as_ref(), own, &files.preset_folder)
 }
 
 fn script_cause(preset: &Preset, files: &Files, hair: &HairModel) -> Result<Cause, StageError> {
@@ -227,8 +230,7 @@ fn gltf_cause(preset: &Preset, files: &Files) -> Result<Cause, StageError> {
 /// Bodies of the preset, and the files of all; what else a script says of its own is in its file.
 fn bodies_cause(preset: &Preset, files: &Files) -> Result<Cause, StageError> {
     let mut hash = Hash::new();
-    let in_preset = preset.bodies.iter().map(|body| &body.section);
-    for section in in_preset.clone() {
+    for section in preset.bodies.iter().map(|body| &body.section) {
         for (index, param) in BodySection::TABLE.iter().enumerate() {
             // A colour moves no hair.
             let value = section.get(index).filter(|_| param.name != "color");
@@ -236,16 +238,7 @@ fn bodies_cause(preset: &Preset, files: &Files) -> Result<Cause, StageError> {
             hash.bytes(format!("{}: {text}", param.name).as_bytes());
         }
     }
-    let mut all: Vec<PathBuf> = in_preset
-        .flat_map(|section| section.files(&files.preset_folder))
-        .collect();
-    let own = preset.sections.motion.file.as_ref();
-    if let Some(path) = chosen(files.motion.as_ref(), own, &files.preset_folder) {
-        let script = script::parse(&path.display().to_string(), &files.read_text(&path)?)?;
-        let folder = path.parent().unwrap_or(Path::new(""));
-        let bodies = script.named_bodies.iter();
-        all.extend(bodies.flat_map(|body| body.section.files(folder)));
-    }
+    let all = body_files(preset, files)?;
     for path in &all {
         hash.file(path)?;
     }
@@ -256,17 +249,45 @@ fn bodies_cause(preset: &Preset, files: &Files) -> Result<Cause, StageError> {
     Ok(hash.cause("bodies", words))
 }
 
-/// The files that hold the numbers of the character, where it has them beside it.
-fn buffers_cause(preset: &Preset, files: &Files) -> Option<Cause> {
-    let path = preset.character_path(files)?;
-    // Who reads the motion tells what is wrong with the files that it needs.
-    let buffers = BoneMotion::files(&path).ok()?;
+/// The files of all bodies, the preset's and its script's.
+fn body_files(preset: &Preset, files: &Files) -> Result<Vec<PathBuf>, StageError> {
+    let bodies = preset.bodies.iter();
+    let mut all: Vec<PathBuf> = bodies
+        .flat_map(|body| body.section.files(&files.preset_folder))
+        .collect();
+    let own = preset.sections.motion.file.as_ref();
+    if let Some(path) = chosen(files.motion.as_ref(), own, &files.preset_folder) {
+        let script = script::parse(&path.display().to_string(), &files.read_text(&path)?)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let bodies = script.named_bodies.iter();
+        all.extend(bodies.flat_map(|body| body.section.files(folder)));
+    }
+    Ok(all)
+}
+
+/// The files that hold the numbers of the character's animations, where it has them beside it.
+fn character_buffers(preset: &Preset, files: &Files) -> Vec<PathBuf> {
+    let path = preset.character_path(files);
+    let buffers = path.and_then(|path| BoneMotion::files(&path).ok());
+    buffers.unwrap_or_default()
+}
+
+/// The files that hold the numbers of meshes, where these have them beside them.
+fn mesh_buffers<'a>(meshes: impl IntoIterator<Item = &'a PathBuf>) -> Vec<PathBuf> {
+    let meshes = meshes.into_iter();
+    let named = meshes.filter_map(|path| mesh_io::named_files(path).ok());
+    named.flat_map(|named| named.buffers).collect()
+}
+
+/// Such files; none where there are none.
+fn buffers_cause(name: &str, buffers: &[PathBuf]) -> Option<Cause> {
     let mut hash = Hash::new();
-    for buffer in &buffers {
+    for buffer in buffers {
+        // Who reads the meshes or the motion tells what is wrong with the files that they need.
         let _ = hash.file(buffer);
     }
     let names: Vec<String> = buffers.iter().map(|path| file_name(path)).collect();
-    (!names.is_empty()).then(|| hash.cause("gltf.buffers", in_comment(&names.join(", "))))
+    (!names.is_empty()).then(|| hash.cause(name, in_comment(&names.join(", "))))
 }
 
 /// A value as a preset writes it.

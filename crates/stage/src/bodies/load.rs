@@ -4,6 +4,7 @@ use super::forms::{End, Form, Forms};
 use super::section::{BodySection, BodyShape, NamedBody, NamedKey};
 use super::{Body, Key, Own};
 use crate::files::StageError;
+use crate::numbered::gap_note;
 use crate::script::turned;
 use effects::preset::{PresetErrors, suggestion};
 use effects::section::Section as _;
@@ -77,6 +78,7 @@ fn read(
     let place = |at: [f32; 3]| Vec3::from(at).as_dvec3() * height_m;
     let center = head.center.as_dvec3();
     let radius = f64::from(section.radius) * height_m;
+    let mut gap_note = None;
     let (middle, own) = match section.shape {
         BodyShape::Sphere => (center + place(section.at), Own::Sphere { radius }),
         BodyShape::Capsule => {
@@ -85,7 +87,8 @@ fn read(
             (center + (from + to) * 0.5, Own::Capsule { half, radius })
         }
         BodyShape::Mesh => {
-            let (middle, forms) = mesh(section, folder, orientation)?;
+            let (middle, forms, note) = mesh(section, folder, orientation)?;
+            gap_note = note;
             (middle + place(section.at), Own::Mesh(forms))
         }
     };
@@ -94,6 +97,7 @@ fn read(
         middle,
         own,
         keys: Vec::new(),
+        gap_note,
     })
 }
 
@@ -105,12 +109,12 @@ pub(crate) fn check(section: &BodySection, folder: &Path) -> Result<(), StageErr
     }
 }
 
-/// A mesh about its middle, and where that is.
+/// A mesh about its middle, and where that is; with a note where files of it are missing.
 fn mesh(
     section: &BodySection,
     folder: &Path,
     orientation: &Orientation,
-) -> Result<(DVec3, Forms), StageError> {
+) -> Result<(DVec3, Forms, Option<String>), StageError> {
     let path = section.path(folder);
     let wrong = |message: String| StageError::Body {
         path: path.clone().unwrap_or_default(),
@@ -122,6 +126,7 @@ fn mesh(
     let mut rate = f64::from(section.rate);
     let mut end = End::of_files(section.repeat);
     let mut forms = Vec::new();
+    let mut note = None;
     if section.is_sequence() {
         let sequence = Sequence::find(path).map_err(|error| wrong(error.to_string()))?;
         let frames = sequence.files().len();
@@ -130,6 +135,7 @@ fn mesh(
                 "there are {frames} numbered files, and a body takes {MOST_FORMS} at most"
             )));
         }
+        note = gap_note("bodies", &sequence);
         for &frame in sequence.files().keys() {
             let model = sequence
                 .read(frame)
@@ -163,7 +169,7 @@ fn mesh(
             false => error.to_string(),
         })
     })?;
-    Ok((middle, forms))
+    Ok((middle, forms, note))
 }
 
 /// The forms of an animation, from its start to its very end, and how many are a second.

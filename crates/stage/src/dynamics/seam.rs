@@ -47,6 +47,17 @@ impl Seams {
     }
 }
 
+/// The times (seconds) just before and just after a script starts again, where that is between `time` and the `start` of a simulation, before which nothing has
+/// moved: what jumps there isn't felt. A loop doesn't jump.
+fn starts_again(script: &MotionScript, start: f64, time: f64) -> Option<[f64; 2]> {
+    if script.period.is_none() || script.closes {
+        return None;
+    }
+    let again = start - script.within(start);
+    let slack = f64::from(f32::EPSILON) * time.abs();
+    (time < again).then_some([again - slack, again])
+}
+
 impl Seam<'_> {
     /// How the head jumps there.
     pub fn way(&self) -> Pose {
@@ -65,11 +76,13 @@ impl Dynamics {
         })
     }
 
-    /// The head's pose at `time` (seconds), carried over the seam between that and another time, if there is one.
+    /// The head's pose at `time` (seconds), carried over the seam between that and another time, if there is one, as over what jumps before the start.
     pub(super) fn pose_beside(&self, time: f64, other: f64, driver: Driver) -> Pose {
         let pose = self.pose_at(time, driver);
         let times = [time.min(other), time.max(other)];
-        let Some(sides) = self.seams.between(driver.script, times) else {
+        let seam = self.seams.between(driver.script, times);
+        let Some(sides) = seam.or_else(|| starts_again(driver.script, self.time_of(0), time))
+        else {
             return pose;
         };
         let [before, next] = sides.map(|time| self.pose_at(time, driver));

@@ -1,6 +1,6 @@
 //! Animations that repeat and start again elsewhere than they ended: hair goes over that as if they went on.
 
-use super::{farthest, written};
+use super::{farthest, means, scene, written};
 use effects::Registry;
 use glam::{Quat, Vec3};
 use stage::{Files, Motion, Preset, Scene};
@@ -244,4 +244,20 @@ fn a_loop_is_closed_over_seams() {
     let left_m = motion.returns().map(|own| own.left_m).fold(0.0, f32::max);
     println!("a loop with five seams is blended by {left_m:.1e} m");
     assert!(left_m < ALIKE_M, "{left_m}");
+}
+
+/// A script that starts again elsewhere jumps there, which hair feels; at the very start nothing has jumped.
+#[test]
+fn what_jumps_at_the_end_of_a_period_is_not_felt_at_the_start() {
+    let with = |period: &str| {
+        let script =
+            format!("(version: 1, {period} keys: [(time: 0), (time: 0.9, turn: (60, 0, 0))])");
+        scene("twin-tails.style.ron", Some(&script), &[])
+    };
+    let [mut once, mut again] = ["", "period: 1,"].map(with);
+    for frame in 0..24 {
+        let time = frame as f32 / 24.0;
+        let apart = farthest(&means(&mut once, time), &means(&mut again, time));
+        assert!(apart < ALIKE_M, "frame {frame}: {apart}");
+    }
 }
