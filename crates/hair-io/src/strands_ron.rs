@@ -12,6 +12,10 @@
 //!             [(0.0, 1.7, 0.0), (0.0, 1.7, 0.1)],
 //!             [(0.05, 1.7, 0.0), (0.1, 1.6, 0.0)],
 //!         ]),
+//!         (time: 0.5, strands: [
+//!             [(0.0, 1.7, 0.0), (0.0, 1.75, 0.1)],
+//!             [(0.05, 1.7, 0.0), (0.15, 1.65, 0.0)],
+//!         ]),
 //!     ],
 //! )
 //! ```
@@ -27,6 +31,8 @@
 //!
 //! `motion` may be left out too. Its times are in seconds and increase; each sample has all strands of
 //! the list, with the same numbers of points, without mirror images (which move as mirror images).
+//! Strands go straight from one time to the next, and stay where they are at the first before it, and
+//! at the last behind it: with one time, as a bake of one frame has, they stand still.
 
 use std::collections::HashSet;
 use std::fmt::Write;

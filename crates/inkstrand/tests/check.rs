@@ -117,6 +117,12 @@ fn check_and_render_say_the_same() {
             distance,
             "look.ron:2:36: layer `hair.highlight` goes by the distance to the light",
         ),
+        // Where nothing is said of the light, it is the layer that asks for one.
+        (
+            hair,
+            "(effect: \"hair.base\"),\n(effect: \"hair.highlight\",\nparams: (kind: distance))",
+            "look.ron:4:1: layer `hair.highlight` goes by the distance to the light",
+        ),
         (
             "hair: (file: \"small.strands.ron\"), dynamics: (step: 0.000001),",
             base,
@@ -181,6 +187,77 @@ fn check_and_render_say_the_same() {
     fs::write(folder.path().join("look.ron"), text).unwrap();
     assert_eq!(told(&folder, "check"), (Some(0), String::new()));
     assert_eq!(told(&folder, "render").0, Some(0));
+}
+
+#[test]
+fn a_mistake_is_told_once() {
+    let folder = folder();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    let script = "(version: 1, bodies: [(shape: mesh, file: \"none.obj\")])";
+    let preset = |more: &str| {
+        format!(
+            "(version: 1, hair: (file: \"small.strands.ron\"), {more}, layers: [(effect: \"hair.base\")])"
+        )
+    };
+    write("none.motion.ron", script);
+    write("one.ron", &preset("motion: (file: \"none.motion.ron\")"));
+    write("other.ron", &preset("motion: (file: \"none.motion.ron\")"));
+    // A ball needs no file, and so misses none.
+    write("ball.ron", &preset("bodies: [(file: \"none.obj\")]"));
+    for (files, mistakes) in [
+        (
+            &["one.ron", "other.ron", "none.motion.ron"][..],
+            "none.motion.ron:1:43: file: there is no `none.obj`",
+        ),
+        (&["ball.ron"], "file: a sphere has none, only mesh"),
+    ] {
+        let arguments = [&["check"], files].concat();
+        let told = inkstrand(&folder, &arguments).assert().code(1);
+        told.stderr(contains(mistakes).and(contains("inkstrand: 1 mistake\n")));
+    }
+    let arguments = ["check", "one.ron", "other.ron", "none.motion.ron"];
+    inkstrand(&folder, &arguments)
+        .assert()
+        .stderr(contains("3 files, 3 of them with mistakes"));
+}
+
+/// A script's bodies are told where the script names them, whoever names the script.
+#[test]
+fn mistakes_of_a_given_script_have_their_places_in_it() {
+    let folder = folder();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    write(
+        "look.ron",
+        "(version: 1, hair: (file: \"small.strands.ron\"), layers: [(effect: \"hair.base\")])",
+    );
+    fs::create_dir(folder.path().join("moves")).unwrap();
+    let script = "(version: 1, bodies: [\n    (shape: mesh, file: \"ball.obj\"),\n    (shape: mesh, file: \"cut.obj\"),\n    (shape: mesh, file: \"cape.##.obj\"),\n])";
+    write("moves/a.motion.ron", script);
+    write("moves/bal.obj", "");
+    write("moves/cut.obj", "v 0 0 zero\n");
+    let arguments = [
+        "render",
+        "look.ron",
+        "--motion",
+        "moves/a.motion.ron",
+        "-o",
+        "a.png",
+    ];
+    let rendered = inkstrand(&folder, &arguments).assert().code(1);
+    let checked = inkstrand(&folder, &["check", "moves/a.motion.ron"])
+        .assert()
+        .code(1);
+    let [rendered, checked] = [rendered, checked]
+        .map(|told| String::from_utf8(told.get_output().stderr.clone()).unwrap());
+    for expected in [
+        "moves/a.motion.ron:2:25: file: there is no `moves/ball.obj`, did you mean `bal.obj`?",
+        "moves/a.motion.ron:3:25: file: moves/cut.obj:1: a vertex",
+        "moves/a.motion.ron:4:25: file: moves/cape.##.obj: there is no file",
+        "inkstrand: 3 mistakes",
+    ] {
+        assert!(rendered.contains(expected), "{rendered}");
+    }
+    assert_eq!(rendered, checked);
 }
 
 #[test]

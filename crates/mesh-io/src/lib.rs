@@ -43,6 +43,7 @@ mod model;
 mod mtl;
 pub mod obj;
 pub mod ply;
+mod polygon;
 mod read;
 mod rig;
 mod sequence;

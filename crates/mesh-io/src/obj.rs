@@ -9,6 +9,7 @@ use glam::{Vec2, Vec3};
 use crate::file::NamedFiles;
 use crate::model::{ImageSource, Mesh, Model};
 use crate::mtl::Library;
+use crate::polygon;
 use crate::read::shown;
 
 /// Why a text is not an OBJ file with meshes.
@@ -77,10 +78,11 @@ pub enum ObjProblem {
     },
 }
 
-/// Reads the meshes of an OBJ text, in the file's own axes and units: one for each name (of `o` or `g`) and material. Polygons become
-/// fans; triangles without an area are left out. Materials are read of the libraries that it names, in `folder` or below; those that
-/// can't be had are told in the model's notes. Beside a group named `body`, those named `helper...` and `joint...` are no skin (the
-/// scaffolding of MakeHuman's base mesh), and are left out with a note. Lines, curves and smoothing groups are not read.
+/// Reads the meshes of an OBJ text, in the file's own axes and units: one for each name (of `o` or `g`) and material. Polygons are cut
+/// into triangles, concave ones too; triangles without an area are left out. Materials are read of the libraries that it names, in
+/// `folder` or below; those that can't be had are told in the model's notes. Beside a group named `body`, those named `helper...` and
+/// `joint...` are no skin (the scaffolding of MakeHuman's base mesh), and are left out with a note. Lines, curves and smoothing groups
+/// are not read.
 ///
 /// # Errors
 ///
@@ -252,15 +254,12 @@ impl Shape {
                 line: face.line,
                 problem,
             })?;
-            for pair in corners[1..].windows(2) {
-                let triangle = [corners[0], pair[0], pair[1]];
-                let [a, b, c] = triangle.map(|[vertex, ..]| self.vertices[vertex].as_dvec3());
-                if (b - a).cross(c - a) == glam::DVec3::ZERO {
-                    continue;
-                }
+            let place = |[vertex, ..]: &[usize; 3]| self.vertices[*vertex].as_dvec3();
+            let places: Vec<_> = corners.iter().map(place).collect();
+            for triangle in polygon::triangles(&places) {
                 let indices = triangle.map(|corner| {
-                    *known.entry(corner).or_insert_with(|| {
-                        let [vertex, uv, normal] = corner;
+                    *known.entry(corners[corner]).or_insert_with(|| {
+                        let [vertex, uv, normal] = corners[corner];
                         has_uvs |= uv < self.uvs.len();
                         mesh.positions.push(self.vertices[vertex]);
                         mesh.uvs.push(self.uvs.get(uv).copied().unwrap_or_default());

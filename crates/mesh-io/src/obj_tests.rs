@@ -124,6 +124,39 @@ fn corners_keep_their_normals_and_places() {
     assert_eq!(model.welded().positions.len(), 4);
 }
 
+/// An arrowhead whose hollow corner, the third, has the place (0.25, 0.5) in its texture.
+#[test]
+fn concave_faces_are_cut_within_themselves_and_corners_keep_what_is_theirs() {
+    let text = "v 0 0 5\nv 2 -1 5\nv 0.5 0 5\nv 2 1 5\nvt 0 0\nvt 1 0\nvt 0.25 0.5\nvt 1 1\nvn 0 0 1\nvn 0 1 0\n";
+    for [first, second, third, fourth] in [[1, 2, 3, 4], [2, 3, 4, 1], [3, 4, 1, 2]] {
+        let corner = |vertex: i32| format!("{vertex}/{vertex}/{}", 1 + i32::from(vertex == 3));
+        let face = [first, second, third, fourth].map(corner).join(" ");
+        let model = from_text(&format!("{text}f {face}\n"), Path::new("")).unwrap();
+        let mesh = &model.meshes[0];
+        assert_eq!(
+            (mesh.positions.len(), mesh.triangles.len()),
+            (4, 2),
+            "{face}"
+        );
+        for corners in mesh.corners() {
+            let [a, b, c] = corners;
+            assert!(
+                (b - a).cross(c - a).z > 0.0 && corners.contains(&Vec3::new(0.5, 0.0, 5.0)),
+                "{face}"
+            );
+        }
+        let hollow = mesh
+            .positions
+            .iter()
+            .position(|place| place.x == 0.5)
+            .unwrap();
+        assert_eq!(
+            (mesh.uvs[hollow], mesh.normals[hollow]),
+            (Vec2::new(0.25, 0.5), Vec3::Y)
+        );
+    }
+}
+
 #[test]
 fn normals_that_are_none_are_those_of_the_triangles() {
     let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn nan 0 0\nvn 1 0 0\nf 1//1 2//2 3\n";

@@ -15,6 +15,7 @@ use self::numbers::Numbers;
 use crate::beside::file_in;
 use crate::file::NamedFiles;
 use crate::model::{Attribute, Image, ImageSource, Material, Mesh, Model, Texture, Wrap};
+use crate::polygon;
 use crate::read::shown;
 
 /// Why bytes are not a PLY file with a mesh.
@@ -50,9 +51,9 @@ pub enum PlyError {
     NoTriangles,
 }
 
-/// Reads the mesh of a PLY file's bytes, in the file's own axes and units. Polygons become fans; triangles without an area are left
-/// out. Places in a texture may be of vertices (`u v`, `s t`, `texture_u texture_v`) or of faces' corners (`texcoord`); other numbers of
-/// vertices become attributes. A texture that a comment names (`TextureFile`) is in `folder` or below.
+/// Reads the mesh of a PLY file's bytes, in the file's own axes and units. Polygons are cut into triangles, concave ones too; triangles
+/// without an area are left out. Places in a texture may be of vertices (`u v`, `s t`, `texture_u texture_v`) or of faces' corners
+/// (`texcoord`); other numbers of vertices become attributes. A texture that a comment names (`TextureFile`) is in `folder` or below.
 ///
 /// # Errors
 ///
@@ -240,12 +241,9 @@ impl Vertices {
                 }
                 corners.push(vertex);
             }
-            for corner in 2..corners.len() {
-                let triangle = [0, corner - 1, corner];
-                let [a, b, c] = triangle.map(|corner| self.positions[corners[corner]].as_dvec3());
-                if (b - a).cross(c - a) == DVec3::ZERO {
-                    continue;
-                }
+            let place = |vertex: &usize| self.positions[*vertex].as_dvec3();
+            let places: Vec<_> = corners.iter().map(place).collect();
+            for triangle in polygon::triangles(&places) {
                 let indices = triangle.map(|corner| {
                     let vertex = corners[corner];
                     let own = face.uvs.get(corner).copied();

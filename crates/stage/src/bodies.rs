@@ -74,17 +74,20 @@ impl Body {
         self.gap_note.iter().cloned().chain(self.open_note())
     }
 
-    /// That its mesh has no inside.
+    /// That its mesh has no inside, at least in one of its forms.
     fn open_note(&self) -> Option<String> {
         let Own::Mesh(forms) = &self.own else {
             return None;
         };
         let file = self.section.file.as_deref().unwrap_or_default();
-        forms.begins_open().then(|| {
-            format!(
-                "bodies: the mesh of `{file}` is open, and hair is kept out of what a mesh closes in: close it, or give it a thickness"
-            )
-        })
+        let open = forms.first_open()?;
+        let form = match forms.deforms() {
+            true => format!(" in its form {}", open + 1),
+            false => String::new(),
+        };
+        Some(format!(
+            "bodies: the mesh of `{file}` is open{form}, and hair is kept out of what a mesh closes in: close it, or give it a thickness"
+        ))
     }
 
     /// Whether it is, at one of the script's own times (seconds), where it is at the other; what changes by itself, nearly so.

@@ -252,13 +252,13 @@ impl<'r> Preset<'r> {
         let is_of_file = matches!(
             error,
             StageError::File(_) | StageError::Character(_) | StageError::Read { .. }
-        ) || matches!(error, StageError::Body { .. }) && self.bodies.is_empty();
+        );
         if is_of_file && self.objects.is_empty() {
             let is_script = |file: &&NamedFile| (file.section, file.param) == ("motion", "file");
             let script = named.iter().find(is_script);
             return script.map_or(Ok(()), |script| self.mistake(script, message));
         }
-        let section = match error {
+        let section = match &error {
             _ if !self.objects.is_empty() => "objects",
             StageError::NoPointLight(_) | StageError::Camera(_) => "light",
             StageError::Shapes(_) | StageError::Loop { .. } | StageError::NoCharacter => "motion",
@@ -268,17 +268,19 @@ impl<'r> Preset<'r> {
             | StageError::Clips(..) => "layers",
             StageError::Path(_) => "path",
             StageError::NoHeadsHair => "hair",
-            StageError::Body { .. } => "bodies",
+            StageError::Body { .. } | StageError::Sequence(_) => "bodies",
             StageError::Unsupported { section, .. } => section,
             _ => "dynamics",
         };
-        let place = match self.place_of_part(section) {
-            Some(place) => place.clone(),
-            None => {
-                let reader = Reader::new(file, text);
-                reader.place(reader.text())
-            }
+        let of_layer = match &error {
+            StageError::NoPointLight(name) => self.layers.iter().find(|layer| layer.name == *name),
+            _ => None,
         };
+        let place = (self.place_of_part(section)).or_else(|| Some(&of_layer?.place));
+        let place = place.cloned().unwrap_or_else(|| {
+            let reader = Reader::new(file, text);
+            reader.place(reader.text())
+        });
         Err(PresetErrors(vec![PresetError { place, message }]))
     }
 

@@ -210,6 +210,9 @@ pub enum StageError {
         /// What is wrong.
         message: String,
     },
+    /// Numbered files are not there, or one of them cannot be read.
+    #[error(transparent)]
+    Sequence(#[from] mesh_io::SequenceError),
     /// Numbered files are no mesh that takes one form after the other.
     #[error("{}: {message}", .path.display())]
     Numbered {

@@ -185,6 +185,17 @@ impl HairModel {
         }
     }
 
+    /// A warning of hair that its own file moves, which tells one time alone. A bake of one frame is meant.
+    pub(crate) fn still_note(&self) -> Option<String> {
+        let motion = self.file.motion.as_ref().filter(|_| self.bake.is_none())?;
+        let [time] = *motion.times() else {
+            return None;
+        };
+        Some(format!(
+            "hair: WARNING: the `motion` of its file has one time, {time} s, so that it stands still: two times or more move it, and without `motion` it swings by itself"
+        ))
+    }
+
     /// Moves what is styled within bodies of a script out of them, as they are when the motion begins: what is so is its shape at rest.
     pub(crate) fn move_out_of_bodies(&mut self, script: &MotionScript, dynamics: &DynamicsSection) {
         if script.bodies.is_empty() || self.file.motion.is_some() {

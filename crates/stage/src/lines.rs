@@ -14,7 +14,7 @@ pub(crate) use strand::LineStrand;
 use crate::files::StageError;
 use crate::head::HeadModel;
 use crate::look::LineSet;
-use crate::names::Names;
+use crate::names::{Names, meant_name};
 use crate::neck::Neck;
 use crate::preset::NamedLines;
 use crate::script::HeadPose;
@@ -325,7 +325,7 @@ pub(crate) fn check(
             _ if names.is_empty() => "of: it names no mesh".to_owned(),
             None => continue,
             Some(name) => {
-                let hint = suggestion(name, known.iter().copied());
+                let hint = meant_name(name, known.iter().copied());
                 format!("of: there is no mesh `{name:.40}` that has lines{hint}")
             }
         };

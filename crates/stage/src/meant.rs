@@ -2,9 +2,8 @@
 
 use crate::files::StageError;
 use crate::mesh_hair::groups;
-use crate::names::{Names, is_meant};
+use crate::names::{Names, is_meant, meant_name};
 use crate::painted::names_of;
-use effects::preset::suggestion;
 use mesh_io::{Mesh, Model, Rig};
 use std::path::Path;
 
@@ -36,7 +35,7 @@ pub(crate) fn meant(
                 path: path.to_owned(),
                 hint: match all_names(model).next() {
                     None => ", nothing in it has a name".to_owned(),
-                    Some(_) => suggestion(name, all_names(model)),
+                    Some(_) => meant_name(name, all_names(model)),
                 },
                 name: name.to_owned(),
             })?;

@@ -3,10 +3,9 @@
 use crate::files::StageError;
 use crate::hair::HairModel;
 use crate::head::HeadModel;
-use crate::names::Names;
+use crate::names::{Names, meant_name};
 use crate::painted::{MeshNames, PaintedMesh, shown};
 use crate::preset::HairSection;
-use effects::preset::suggestion;
 use glam::{Vec2, Vec3};
 use hair_io::mesh_hair::{Lock, LockStrand, MeshHair, islands, locks};
 use hair_io::orient::Orientation;
@@ -441,7 +440,7 @@ fn check(names: &Names, model: &Model, path: &Path) -> Result<(), StageError> {
         None => Ok(()),
         Some(name) => Err(StageError::NoMeshOrBone {
             path: path.to_owned(),
-            hint: suggestion(name, all()),
+            hint: meant_name(name, all()),
             name: name.to_owned(),
         }),
     }

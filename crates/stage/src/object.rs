@@ -88,6 +88,7 @@ impl Object {
         hair.choose_guides(&preset.sections.hair);
         hair.move_out_of_bodies(&script, &preset.sections.dynamics);
         bake::load(preset, files, &mut hair, notes)?;
+        notes.extend(hair.still_note());
         if let Some(period) = script.period.filter(|_| script.closes)
             && hair.bake.is_none()
         {

@@ -380,7 +380,7 @@ impl OfFile<'_> {
             path: self.path.to_owned(),
             message,
         };
-        let sequence = Sequence::find(self.path).map_err(|error| wrong(error.to_string()))?;
+        let sequence = Sequence::find(self.path)?;
         let files = sequence.files().len();
         if files > MOST_FILES {
             return Err(wrong(format!(
@@ -392,9 +392,7 @@ impl OfFile<'_> {
         let mut forms: Vec<Vec<PaintedMesh>> = Vec::new();
         let mut size = 0;
         for (index, (&frame, file)) in sequence.files().iter().enumerate() {
-            let model = sequence
-                .read(frame)
-                .map_err(|error| wrong(error.to_string()))?;
+            let model = sequence.read(frame)?;
             let mut of_this = Vec::new();
             let of_file = OfFile {
                 path: file,

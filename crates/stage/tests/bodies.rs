@@ -222,7 +222,25 @@ fn meshes_move_and_change_their_form() {
         thick - thin
     );
     assert!(before > 0.02 && deepest < 2e-3, "{before} {deepest}");
-    // A later form that is none is told by its file.
+    // A later form that lacks a side is noted.
+    let side = |text: &str| text.trim_end().rsplit_once('\n').unwrap().0.to_owned();
+    assert_eq!(
+        given
+            .scene()
+            .unwrap()
+            .notes()
+            .join("\n")
+            .matches("open")
+            .count(),
+        0
+    );
+    write("wall.0003.obj", &side(&wall(0.09)));
+    let notes = given.scene().unwrap().notes().join("\n");
+    assert!(
+        notes.contains("bodies: the mesh of `wall.####.obj` is open in its form 3, and hair"),
+        "{notes}"
+    );
+    // One that is none is told by its file.
     write("wall.0003.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
     let message = given.scene().err().unwrap();
     assert!(
@@ -240,12 +258,14 @@ fn meshes_move_and_change_their_form() {
     let notes = turned.scene().unwrap().notes().join("\n");
     assert!(!notes.contains("open"), "{notes}");
     // Without a side nothing is within it, which is noted.
-    let whole = wall(thick);
-    let without_a_side = whole.trim_end().rsplit_once('\n').unwrap().0;
-    fs::write(turned.folder.path().join("wall.0004.obj"), without_a_side).unwrap();
+    fs::write(
+        turned.folder.path().join("wall.0004.obj"),
+        side(&wall(thick)),
+    )
+    .unwrap();
     let notes = turned.scene().unwrap().notes().join("\n");
     assert!(
-        notes.contains("bodies: the mesh of `wall.0004.obj` is open"),
+        notes.contains("bodies: the mesh of `wall.0004.obj` is open, and hair"),
         "{notes}"
     );
 }

@@ -103,6 +103,24 @@ fn scripts_styles_and_bakes_are_opened() {
             .to_string()
             .contains("did you mean `nod`?")
     );
+    // Files are called what they are.
+    for (text, script, style) in [
+        (
+            "3",
+            "a motion script begins with `(`",
+            "a hair style begins with `(`",
+        ),
+        (
+            "(version: 1)\n3",
+            "this comes after the end of the motion script, the bracket of line 1",
+            "this comes after the end of the hair style, the bracket of line 1",
+        ),
+    ] {
+        let found = check_motion(Path::new("a.motion.ron"), text).unwrap_err();
+        assert!(found.to_string().contains(script), "{found}");
+        let found = check_style(Path::new("a.style.ron"), text).unwrap_err();
+        assert!(found.to_string().contains(style), "{found}");
+    }
     let style = check_style(Path::new("bob.style.ron"), "(version: 1, fringe: [])");
     assert!(
         style

@@ -49,6 +49,31 @@ fn a_note_says_how_many_strands_are_drawn() {
 }
 
 #[test]
+fn motion_of_one_time_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.strands.ron");
+    let strand = "[(0, 1.7, 0), (0, 1.4, 0)]";
+    let told = |times: &[f32], section: &str| {
+        let sample = |time: &f32| format!("(time: {time}, strands: [{strand}])");
+        let samples: Vec<String> = times.iter().map(sample).collect();
+        let text = format!(
+            "(version: 1, strands: [(points: {strand})], motion: [{}])",
+            samples.join(", ")
+        );
+        fs::write(&path, text).unwrap();
+        notes(section, &path)
+            .join("\n")
+            .contains("has one time, 0.5 s, so that it stands still")
+    };
+    assert!(told(&[0.5], ""));
+    assert!(!told(&[], ""));
+    assert!(!told(&[0.5, 1.0], ""));
+    // A bake of one frame is one of that frame.
+    let bake = format!("bake: {:?}", path.display().to_string());
+    assert!(!told(&[0.5], &bake));
+}
+
+#[test]
 fn hair_that_does_not_fit_its_head_is_told() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.strands.ron");

@@ -1,8 +1,8 @@
-//! Whether all brackets of a preset are closed, and where one was most likely forgotten.
+//! Whether all brackets of a text are closed, and where one was most likely forgotten.
 
 use super::syntax::{Kind, Mistake, mistake, token};
 
-/// A bracket: the end of the preset that begins with it, and where it stands.
+/// A bracket: the end of the text that begins with it, and where it stands.
 #[derive(Clone, Copy)]
 struct Bracket<'a> {
     at: &'a str,
@@ -30,16 +30,16 @@ impl<'a> Bracket<'a> {
 /// An opening bracket and the one that closes it, or should.
 type Pair<'a> = (Bracket<'a>, Bracket<'a>);
 
-/// Checks that all brackets, texts and comments of the preset are closed, and that nothing comes
-/// after its end: without that there are no parts to look at.
-pub(super) fn check_brackets(preset: &str) -> Result<(), Mistake<'_>> {
+/// Checks that all brackets, texts and comments of a `text` are closed, and that nothing comes after its end: without that there are
+/// no parts to look at. Messages call the whole `what`, such as "preset".
+pub(super) fn check_brackets<'a>(what: &str, text: &'a str) -> Result<(), Mistake<'a>> {
     let mut open: Vec<Bracket> = Vec::new();
     // The first pairs that look wrong, to be named where the whole does not fit.
     let mut missing: Option<Pair> = None;
     let mut extra: Option<Pair> = None;
     let mut end: Option<Bracket> = None;
-    let mut lines = Lines::new(preset);
-    let mut rest = preset;
+    let mut lines = Lines::new(text);
+    let mut rest = text;
     while let Some((piece, after)) = token(rest)? {
         let here = lines.bracket(rest.len() - after.len() - piece.text.len());
         lines.pass(piece.text.len());
@@ -50,7 +50,7 @@ pub(super) fn check_brackets(preset: &str) -> Result<(), Mistake<'_>> {
                 None => mistake(
                     here.at,
                     format!(
-                        "this comes after the end of the preset, the bracket of line {}",
+                        "this comes after the end of the {what}, the bracket of line {}",
                         end.line
                     ),
                 ),
@@ -83,7 +83,7 @@ pub(super) fn check_brackets(preset: &str) -> Result<(), Mistake<'_>> {
                 let found: String = piece.text.chars().take(40).collect();
                 return mistake(
                     here.at,
-                    format!("a preset begins with `(`, found `{found}`"),
+                    format!("a {what} begins with `(`, found `{found}`"),
                 );
             }
             _ => {}
@@ -103,7 +103,7 @@ pub(super) fn check_brackets(preset: &str) -> Result<(), Mistake<'_>> {
     }
 }
 
-/// Lines and indentations on a walk through the preset, each character looked at once.
+/// Lines and indentations on a walk through the text, each character looked at once.
 struct Lines<'a> {
     rest: &'a str,
     line: usize,
@@ -112,11 +112,11 @@ struct Lines<'a> {
 }
 
 impl<'a> Lines<'a> {
-    fn new(preset: &'a str) -> Self {
+    fn new(text: &'a str) -> Self {
         Self {
-            rest: preset,
+            rest: text,
             line: 1,
-            indentation: indentation(preset),
+            indentation: indentation(text),
             is_first: true,
         }
     }

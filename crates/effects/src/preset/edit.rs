@@ -247,7 +247,7 @@ fn splice(text: &str, edits: &mut [Edit]) -> String {
 
 /// The span of the value as far as the way is there, and the number of its steps.
 fn walk(text: &str, path: &[Step]) -> Result<(Range<usize>, usize), EditError> {
-    if let Err(mistake) = check_brackets(text) {
+    if let Err(mistake) = check_brackets("text", text) {
         let at = group::offset(text, mistake.at);
         return Err(syntax(text, at, mistake.message));
     }
@@ -369,7 +369,7 @@ fn one_value(value: &str) -> Result<&str, EditError> {
     let value = value.trim();
     let in_brackets = format!("({value})");
     let parts = pieces(value);
-    let is_one = check_brackets(&in_brackets).is_ok()
+    let is_one = check_brackets("text", &in_brackets).is_ok()
         && parts
             .iter()
             .all(|piece| matches!(piece.kind, Kind::Group | Kind::Word | Kind::Text))

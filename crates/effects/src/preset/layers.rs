@@ -72,6 +72,8 @@ pub const OF_THE_EFFECT: &[&str] = &["name", "rank", "depth_offset", "clip", "re
 pub struct LayerSpec<'r> {
     /// Unique in the preset.
     pub name: String,
+    /// Where the file describes it, or says last what of it is otherwise.
+    pub place: Place,
     /// The effect.
     pub effect: &'r dyn AnyEffect,
     /// Drawing order within a strand.
@@ -347,6 +349,7 @@ impl<'a> Reader<'a> {
         let clip_field = own.iter().find(|field| field.name == "clip");
         Some(LayerSpec {
             name: layer.name.unwrap_or_else(|| effect.id().to_owned()),
+            place: self.place(item),
             effect,
             rank: layer.rank.unwrap_or(effect.rank()),
             depth_offset: layer.depth_offset.unwrap_or(effect.depth_offset()),

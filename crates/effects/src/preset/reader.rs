@@ -51,10 +51,16 @@ pub struct Field<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// A reader of `text`, which messages call `file`. Brackets, texts and comments that have no end
+    /// A reader of a preset's `text`, which messages call `file`. Brackets, texts and comments that have no end
     /// are noted as mistakes; then the text has no sections and no lists.
     #[must_use]
     pub fn new(file: &str, text: &'a str) -> Self {
+        Self::of("preset", file, text)
+    }
+
+    /// As [`Self::new`], of a text that is no preset but `what`, such as "motion script".
+    #[must_use]
+    pub fn of(what: &str, file: &str, text: &'a str) -> Self {
         let mut reader = Self {
             file: file.to_owned(),
             text,
@@ -63,7 +69,7 @@ impl<'a> Reader<'a> {
             last: Cell::new(START),
             whole: true,
         };
-        if let Err(mistake) = check_brackets(text) {
+        if let Err(mistake) = check_brackets(what, text) {
             reader.error(mistake.at, mistake.message);
             reader.whole = false;
         }

@@ -9,6 +9,7 @@ use effects::Registry;
 use stage::{
     Files, Preset, check_hair, check_mesh, check_motion, check_style, is_hair_file, is_mesh_file,
 };
+use std::collections::HashSet;
 use std::fs;
 use std::io::{self, IsTerminal as _};
 use std::path::{Path, PathBuf};
@@ -29,10 +30,16 @@ pub(crate) fn check(paths: &[PathBuf], registry: &Registry) -> Result<(), Failur
 
     let mut bar = Bar::new(false, files.len() as u64, "files", None);
     let mut wrong = 0;
+    // A script's mistakes are those of the preset that names it, too.
+    let mut told = HashSet::new();
     for file in &files {
         let mistakes = mistakes_of(file, registry);
         wrong += usize::from(!mistakes.is_empty());
-        found.extend(mistakes);
+        found.extend(
+            mistakes
+                .into_iter()
+                .filter(|mistake| told.insert(mistake.clone())),
+        );
         bar.inc()?;
     }
     bar.finish();

@@ -88,6 +88,24 @@ fn places_in_textures_are_of_vertices_or_corners() {
 }
 
 #[test]
+fn concave_faces_are_cut_within_themselves_and_corners_keep_what_is_theirs() {
+    // An arrowhead, the second corner of which is hollow.
+    let text = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n\
+        property list uchar int vertex_index\nproperty list uchar float texcoord\nend_header\n2 -1 0\n0.5 0 0\n2 1 0\n0 0 0\n\
+        4 0 1 2 3 8 1 0 0.25 0.5 1 1 0 0\n";
+    let mesh = &read(text.as_bytes()).unwrap().meshes[0];
+    assert_eq!(mesh.triangles.len(), 2);
+    let hollow = Vec3::new(0.5, 0.0, 0.0);
+    for corners in mesh.corners() {
+        let [a, b, c] = corners;
+        assert!((b - a).cross(c - a).z > 0.0 && corners.contains(&hollow));
+    }
+    let uv_of = |place| mesh.uvs[mesh.positions.iter().position(|own| *own == place).unwrap()];
+    assert_eq!(uv_of(hollow), Vec2::new(0.25, 0.5));
+    assert_eq!(uv_of(Vec3::new(2.0, 1.0, 0.0)), Vec2::new(1.0, 0.0));
+}
+
+#[test]
 fn mistakes_name_their_place() {
     for (faces, expected) in [
         (

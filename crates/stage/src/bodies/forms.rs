@@ -6,6 +6,7 @@ use glam::{DVec3, Vec3};
 use hair_sim::{GridError, SignedDistance};
 use mesh_io::Welded;
 use mesh_lines::{Beside, Topology};
+use rayon::prelude::*;
 use std::collections::HashSet;
 use std::sync::OnceLock;
 
@@ -157,9 +158,9 @@ impl Forms {
         self.forms.len() > 1
     }
 
-    /// Whether its first form [is open](Form::is_open).
-    pub fn begins_open(&self) -> bool {
-        self.forms.first().is_some_and(Form::is_open)
+    /// The number of the first form, from 0, that [is open](Form::is_open).
+    pub fn first_open(&self) -> Option<usize> {
+        self.forms.par_iter().position_first(Form::is_open)
     }
 
     /// The distances of a form.

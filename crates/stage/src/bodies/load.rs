@@ -23,7 +23,7 @@ const ANIMATION_RATE: f64 = 24.0;
 ///
 /// # Errors
 ///
-/// When a file cannot be read, or a key's body is not there.
+/// When files cannot be read, or a key's body is not there: all of these, where they are named.
 pub(crate) fn load(
     named: &[(&NamedBody, &Path)],
     keys: &[NamedKey],
@@ -31,10 +31,17 @@ pub(crate) fn load(
     orientation: &Orientation,
 ) -> Result<Vec<Body>, StageError> {
     let mut bodies = Vec::with_capacity(named.len());
-    for (body, folder) in named {
-        bodies.push(read(&body.section, folder, head, orientation)?);
-    }
     let mut mistakes = Vec::new();
+    for (body, folder) in named {
+        match read(&body.section, folder, head, orientation) {
+            Ok(body) => bodies.push(body),
+            Err(error @ StageError::Section { .. }) => return Err(error),
+            Err(error) => mistakes.push(body.unread(folder, &error).ok_or(error)?),
+        }
+    }
+    if !mistakes.is_empty() {
+        return Err(PresetErrors(mistakes).into());
+    }
     for key in keys {
         let is_meant = |body: &Body| body.section.name.as_deref() == Some(key.body());
         // A script's own comes before the preset's of the same name.
@@ -128,7 +135,7 @@ fn mesh(
     let mut forms = Vec::new();
     let mut note = None;
     if section.is_sequence() {
-        let sequence = Sequence::find(path).map_err(|error| wrong(error.to_string()))?;
+        let sequence = Sequence::find(path)?;
         let frames = sequence.files().len();
         if frames > MOST_FORMS {
             return Err(wrong(format!(
@@ -137,10 +144,7 @@ fn mesh(
         }
         note = gap_note("bodies", &sequence);
         for &frame in sequence.files().keys() {
-            let model = sequence
-                .read(frame)
-                .map_err(|error| wrong(error.to_string()))?;
-            forms.push(form(&model, None, orientation));
+            forms.push(form(&sequence.read(frame)?, None, orientation));
         }
     } else {
         let model = mesh_io::read_model(path)?;

@@ -1,5 +1,6 @@
 //! Bodies as presets and motion scripts write them.
 
+use crate::files::StageError;
 use crate::numbered::all_files;
 use crate::part::FilePart;
 use crate::preset::{is_sequence, missing};
@@ -171,11 +172,18 @@ impl NamedBody {
 
     /// What is wrong with the name of its file.
     pub(crate) fn missing(&self, folder: &Path) -> Option<PresetError> {
-        if self.section.is_sequence() {
+        let is_mesh = self.section.shape == BodyShape::Mesh;
+        if !is_mesh || self.section.is_sequence() {
             return None;
         }
         let message = missing(folder, "file", self.section.file.as_ref()?)?;
         self.mistake(message)
+    }
+
+    /// What is wrong with its file, which can't be read because of `error`.
+    pub(crate) fn unread(&self, folder: &Path, error: &StageError) -> Option<PresetError> {
+        let missing = self.missing(folder);
+        missing.or_else(|| self.mistake(format!("file: {error}")))
     }
 
     /// A mistake where its file is named; none where a program says it.

@@ -2,9 +2,9 @@
 
 use super::HeadModel;
 use crate::files::StageError;
-use crate::names::Names;
+use crate::names::{Names, meant_name};
 use effects::Layer;
-use effects::preset::{LayerSpec, PresetError, PresetErrors, suggestion};
+use effects::preset::{LayerSpec, PresetError, PresetErrors};
 use groom::FacePart;
 use render::Decal;
 
@@ -175,7 +175,7 @@ pub(crate) fn check(
             _ if names.is_empty() => format!("{field}: it names no mesh"),
             None => continue,
             Some(name) => {
-                let hint = suggestion(name, known.iter().copied());
+                let hint = meant_name(name, known.iter().copied());
                 format!("{field}: there is no mesh `{name:.40}` to be {use_of_it}{hint}")
             }
         };

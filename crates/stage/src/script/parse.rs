@@ -181,7 +181,7 @@ const LISTS: [&str; 6] = ["keys", "moves", "winds", "shapes", "bodies", "body_ke
 ///
 /// All mistakes of the file, each with its line and column.
 pub(crate) fn parse(file: &str, text: &str) -> Result<MotionScript, PresetErrors> {
-    let mut reader = Reader::new(file, text);
+    let mut reader = Reader::of("motion script", file, text);
     let fields = reader.fields(text, "the motion");
     reader.report()?;
     let (lists, plain): (Vec<Field>, Vec<Field>) = fields

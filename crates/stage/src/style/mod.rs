@@ -140,7 +140,7 @@ pub(crate) struct Written {
 ///
 /// All mistakes of the file, each with its line and column.
 pub(crate) fn parse(file: &str, text: &str) -> Result<Written, PresetErrors> {
-    let mut reader = Reader::new(file, text);
+    let mut reader = Reader::of("hair style", file, text);
     let fields = reader.fields(text, "the style");
     reader.report()?;
     let (lists, plain): (Vec<Field>, Vec<Field>) = fields
