@@ -274,6 +274,7 @@ pub(crate) fn prepare<T: Number>(
     loads.touched.clear();
     loads.between = Mask::NONE;
     loads.on_exact = Mask::NONE;
+    loads.have_exact = Mask::NONE;
     if !drive.surroundings.colliders.is_empty() {
         if !state.skin_known {
             find::settle_in(batch, state, drive.surroundings.colliders);
@@ -301,6 +302,7 @@ pub(crate) fn prepare<T: Number>(
         stats.contacts = found;
         loads.between = Mask::new(between);
         loads.on_exact = Mask::new(on_exact);
+        loads.have_exact = Mask::new([bodies.have_links(); LANES]);
         state.lifts = lifts;
     }
     if let Some((index, locks)) = drive.locks {

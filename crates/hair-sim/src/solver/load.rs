@@ -33,8 +33,9 @@ pub(crate) struct Loads {
     pub touched: Vec<usize>,
     /// The strands that two bodies have planes for in this step, of which links count for one.
     pub between: Mask,
-    /// Those that are near one whose shape is exact: a ball or a capsule.
+    /// Those that are near one whose shape is exact, a ball or a capsule; and all, where there is any.
     pub on_exact: Mask,
+    pub have_exact: Mask,
     /// What planes of bodies were found by.
     pub ways: Ways,
 }
@@ -54,6 +55,7 @@ impl Loads {
             touched: Vec::with_capacity(planes),
             between: Mask::NONE,
             on_exact: Mask::NONE,
+            have_exact: Mask::NONE,
             ways: Ways::new(count),
         }
     }

@@ -53,13 +53,15 @@ pub(super) fn calm_down(
 ) {
     let turned_back = turned_back(state, active);
     let goes_nowhere = goes_nowhere(batch, state, active, drive.dt);
-    // What links need to keep off a ball hangs on how they turn: that may lift a strand and let it fall for ever.
-    let is_lifted = has_swung(batch, state).and(loads.on_exact);
+    // What links need to keep off a ball hangs on how they turn: that may lift a strand and let it fall for ever, from one touch to the next.
+    let touches = loads.on_exact;
+    let was_lifted = state.rocking.gt(Lane::ZERO).and(loads.have_exact);
+    let is_lifted = has_swung(batch, state).and(touches.or(was_lifted));
     let [jams, rocks] = moved(
         batch,
         state,
         (drive, loads.between),
-        [goes_nowhere, turned_back.or(is_lifted)],
+        [goes_nowhere, turned_back, is_lifted],
     )
     .map(|counts| active.pick(counts, Lane::ZERO));
     if [jams, rocks, state.restless, state.rocking] == [Lane::ZERO; 4] {
@@ -120,13 +122,13 @@ fn has_swung(batch: &Batch, state: &BatchState) -> Mask {
 }
 
 /// What counts of the step before, in s: as moved, where others press on strands, or a body on those that are tied or between two, and they go nowhere; and as rocked, where a
-/// body presses on any, and they turn back. Of both, until they stick, what goes on takes away again.
+/// body presses on any, and they turn back, or as a ball lifts them. Of both, until they stick, what goes on takes away again.
 #[inline(always)]
 fn moved(
     batch: &Batch,
     state: &BatchState,
     (drive, between): (&Drive, Mask),
-    [goes_nowhere, turned_back]: [Mask; 2],
+    [goes_nowhere, turned_back, is_lifted]: [Mask; 3],
 ) -> [Lane; 2] {
     let (bodies, others) = state.press.split_at(batch.count());
     let (others, second) = others.split_at(batch.planes - batch.count());
@@ -147,6 +149,7 @@ fn moved(
     for press in others {
         held = press.gt(Lane::ZERO).pick(stays, held);
     }
+    rocks = is_lifted.pick(Lane::ONE, rocks);
     // Goals that go through key shapes move strands themselves.
     if [held, rocks] == [Lane::ZERO; 2] || drive.surroundings.goal.is_some() {
         return [Lane::ZERO; 2];
