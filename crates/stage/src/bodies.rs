@@ -160,11 +160,25 @@ impl Body {
     pub fn collider(&self, times: [f64; 2], postures: [&Posture; 2]) -> Collider<'_> {
         let placed = [0, 1].map(|i| self.at(times[i], postures[i]));
         let [was, shape] = [0, 1].map(|i| self.shape(times[i], placed[i].size));
+        let [before, now] = [0, 1].map(|i| {
+            let Placed { pose, size } = placed[i];
+            let translation = match &self.own {
+                // Its shape is about the middle of its form.
+                Own::Mesh(forms) => {
+                    pose.rotation * (forms.middle(times[i]) * size) + pose.translation
+                }
+                _ => pose.translation,
+            };
+            Pose {
+                translation,
+                ..pose
+            }
+        });
         let changes = placed[0].size != placed[1].size || self.deforms();
         Collider {
             shape,
-            before: placed[0].pose,
-            now: placed[1].pose,
+            before,
+            now,
             was: changes.then_some(was),
         }
     }

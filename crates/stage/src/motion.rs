@@ -255,6 +255,10 @@ impl ObjectMotion {
             off_head(object, self.pose, &mut self.points);
             self.pose(driver, time);
             move_by(object, self.pose, &mut self.points);
+            // Shoulders and other bodies stay where they are, or go elsewhere.
+            if let Some(dynamics) = &self.dynamics {
+                dynamics.keep_out(driver, time, &mut self.points);
+            }
         }
         Ok(match reached == held {
             true => time,

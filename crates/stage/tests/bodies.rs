@@ -154,6 +154,77 @@ fn a_body_that_moves_takes_hair_along_and_what_it_swallows_comes_out() {
     }
 }
 
+/// Held hair goes with the head from frame to frame, and would go into what stays.
+#[test]
+fn held_hair_keeps_out_of_bodies() {
+    let turns = "(version: 1, moves: [(move: turn, start: 0.1, length: 0.4, angle: 60)], \
+                 bodies: [(at: (0.35, -0.7, -0.65), radius: 0.2), (at: (-0.35, -0.7, -0.65), radius: 0.2)])";
+    let given = Given::new(TAIL, turns, "");
+    let mut held = Given::new(TAIL, turns, "");
+    held.preset = held.preset.replace(
+        "motion: (file: \"a.motion.ron\")",
+        "motion: (file: \"a.motion.ron\", on: 4, held: hair)",
+    );
+    let [given, held] = [given.scene().unwrap(), held.scene().unwrap()];
+    let (center, height_m) = (given.head().center, given.head().height_m);
+    let (mut motion, mut holds) = (Motion::new(), Motion::new());
+    let (mut deepest, mut differs) = (0.0_f32, false);
+    for frame in 0..20_u32 {
+        let time = frame as f32 / 24.0;
+        let now = points(&held, &mut holds, time);
+        differs |= now != points(&given, &mut motion, time);
+        for x in [0.35, -0.35] {
+            let ball = center + Vec3::new(x, -0.7, -0.65) * height_m;
+            deepest = deepest.max(depth_in(&now, 6, ball, 0.2 * height_m));
+        }
+    }
+    println!("held hair: {deepest:.1e} m in a ball");
+    assert!(differs);
+    assert!(deepest < 1e-3, "{deepest}");
+}
+
+/// A mesh that goes by more than its thickness from form to form takes hair along as one that `body_keys` move.
+#[test]
+fn a_mesh_that_its_files_move_takes_hair_along() {
+    let given = Given::new(TAIL, "(version: 1)", "");
+    let (center, height_m) = {
+        let scene = given.scene().unwrap();
+        (scene.head().center, scene.head().height_m)
+    };
+    // 26 forms in a second, from the right through the tail.
+    let half = 0.12 * height_m;
+    let place = |x: f32| (center + Vec3::new(x, -0.7, -0.6) * height_m).to_array();
+    let place_of_form = |form: u32| place(1.5 - 3.0 * form as f32 / 25.0);
+    for form in 0..26 {
+        let text = cube([half; 3], place_of_form(form));
+        fs::write(given.folder.path().join(format!("box.{form:04}.obj")), text).unwrap();
+    }
+    let alone = cube([half; 3], place(1.5));
+    fs::write(given.folder.path().join("alone.obj"), alone).unwrap();
+    let by_files =
+        "(version: 1, bodies: [(shape: mesh, file: \"box.####.obj\", rate: 25)])".to_owned();
+    let by_keys = "(version: 1, bodies: [(name: \"box\", shape: mesh, file: \"alone.obj\")], \
+                   body_keys: [(body: \"box\", time: 0), (body: \"box\", time: 1, at: (-3, 0, 0))])"
+        .to_owned();
+    let [by_files, by_keys] = [by_files, by_keys].map(|script| {
+        fs::write(given.folder.path().join("a.motion.ron"), script).unwrap();
+        let scene = given.scene().unwrap();
+        let mut motion = Motion::new();
+        let rest = points(&scene, &mut motion, 0.0);
+        let far = (1..=24).map(|frame| {
+            let now = points(&scene, &mut motion, frame as f32 / 24.0);
+            let ways = rest.iter().zip(&now).map(|(a, b)| a.distance(*b));
+            ways.fold(0.0, f32::max)
+        });
+        far.fold(0.0, f32::max)
+    });
+    println!(
+        "hair goes by {by_files:.3} m before a mesh of files, by {by_keys:.3} before one with keys"
+    );
+    assert!(by_keys > 0.1, "{by_keys}");
+    assert!(by_files > 0.8 * by_keys, "{by_files}, {by_keys}");
+}
+
 /// A box about 0, m, and the same in another form.
 fn cube(half: [f32; 3], at: [f32; 3]) -> String {
     let mut text = String::new();

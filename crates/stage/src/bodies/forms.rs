@@ -55,7 +55,9 @@ pub(crate) struct Form {
     pub positions: Vec<Vec3>,
     pub normals: Vec<Vec3>,
     pub triangles: Vec<[u32; 3]>,
-    /// Its distances, made when they are first needed.
+    /// Where it has come to as a whole, of several that the mesh takes.
+    middle: Vec3,
+    /// Its distances about that, made when they are first needed.
     grid: OnceLock<SignedDistance>,
 }
 
@@ -65,6 +67,7 @@ impl Form {
             positions,
             normals,
             triangles,
+            middle: Vec3::ZERO,
             grid: OnceLock::new(),
         }
     }
@@ -137,7 +140,10 @@ impl Forms {
     /// # Errors
     ///
     /// The number of the first one, from 0, that has no distances, and why.
-    pub fn new(forms: Vec<Form>, rate: f64, end: End) -> Result<Self, (usize, GridError)> {
+    pub fn new(mut forms: Vec<Form>, rate: f64, end: End) -> Result<Self, (usize, GridError)> {
+        if forms.len() > 1 {
+            find_middles(&mut forms);
+        }
         // Of the largest form, so that none of them takes more cells.
         let sides = forms.iter().map(Form::longest_side);
         let longest = sides.map(f64::from).fold(1e-6, f64::max);
@@ -163,13 +169,22 @@ impl Forms {
         self.forms.par_iter().position_first(Form::is_open)
     }
 
-    /// The distances of a form.
+    /// Where the mesh has come to as a whole at a time (seconds): its distances are those about this place. Mixed where they are, two forms that are farther apart
+    /// than the mesh is thick would have hardly any inside between them.
+    pub fn middle(&self, time: f64) -> DVec3 {
+        let (from, to, share) = self.between(time);
+        let [from, to] = [from, to].map(|form| self.forms[form].middle.as_dvec3());
+        from.lerp(to, share)
+    }
+
+    /// The distances of a form about [its middle](Self::middle).
     pub fn grid(&self, form: usize) -> &SignedDistance {
         let form = &self.forms[form];
         once(&form.grid, || {
             let single = form.single_sided();
             let triangles = single.as_deref().unwrap_or(&form.triangles);
-            SignedDistance::new(&form.positions, triangles, self.cell)
+            let places: Vec<Vec3> = form.positions.iter().map(|p| *p - form.middle).collect();
+            SignedDistance::new(&places, triangles, self.cell)
                 .expect("forms are checked when they are read")
         })
     }
@@ -203,6 +218,26 @@ impl Forms {
             mixed(&from.positions, &to.positions, share),
             mixed_normals(&from.normals, &to.normals, share),
         )
+    }
+}
+
+/// Finds where forms have come to: of one mesh the mean of its corners, of several that of the box around each.
+fn find_middles(forms: &mut [Form]) {
+    let is_one_mesh = forms.windows(2).all(|pair| {
+        pair[0].triangles == pair[1].triangles && pair[0].positions.len() == pair[1].positions.len()
+    });
+    for form in forms {
+        form.middle = if is_one_mesh {
+            let sum: DVec3 = form.positions.iter().map(|p| p.as_dvec3()).sum();
+            (sum / form.positions.len().max(1) as f64).as_vec3()
+        } else {
+            let [low, high] = form.bounds();
+            low.midpoint(high)
+        };
+        // What isn't a number is told with the form's distances.
+        if !form.middle.is_finite() {
+            form.middle = Vec3::ZERO;
+        }
     }
 }
 
@@ -306,6 +341,32 @@ mod tests {
         }
         let (positions, ..) = once.shape(0.25);
         assert!((positions[0].x + 0.15).abs() < 1e-6, "{}", positions[0]);
+    }
+
+    /// Half way between two forms that have nothing in common a mesh is as thick as they are.
+    #[test]
+    fn what_goes_by_more_than_its_thickness_keeps_its_inside() {
+        let moved = |by: Vec3| {
+            let mut cube = cube(0.1);
+            for position in &mut cube.positions {
+                *position += by;
+            }
+            cube
+        };
+        let one_mesh = vec![moved(Vec3::ZERO), moved(Vec3::X * 0.5)];
+        let mut two_meshes = one_mesh.clone();
+        two_meshes[1].triangles.rotate_left(1);
+        for forms in [one_mesh, two_meshes] {
+            let forms = Forms::new(forms, 1.0, End::Stays).unwrap();
+            for (time, x) in [(0.0, 0.0), (0.5, 0.25), (1.0, 0.5)] {
+                let middle = forms.middle(time);
+                assert!((middle - DVec3::X * x).length() < 1e-6, "{middle}");
+            }
+            for form in [0, 1] {
+                let inside = forms.grid(form).distance(DVec3::ZERO);
+                assert!((inside + 0.1).abs() < 0.01, "{inside}");
+            }
+        }
     }
 
     #[test]
