@@ -170,6 +170,7 @@ impl<'a> Run<'a> {
             wind_before: None,
             streams: &[],
             colliders: &colliders,
+            of_one_figure: 0,
             goal: goal.as_deref(),
             anchors: &[],
         };
