@@ -1,5 +1,5 @@
 //! Contact of particles with bodies: once a step, the path of every particle against every body gives at most one
-//! plane, behind which the particle is held in the stages of the step; two of different bodies where balls or capsules are among these. Other hair
+//! plane, behind which the particle is held in the stages of the step; two of different bodies where any is no part of the figure. Other hair
 //! gives it one more: see [`super::locks`].
 //!
 //! Its parts, of which each imports those above it alone: `path`, the way of a place; `link`, what lies between two particles; `guard`, what is near a

@@ -31,7 +31,7 @@ pub(crate) struct Loads {
     /// The planes that particles have in this step, by their places in `contacts`: there the first are those of bodies, one for each particle, then come
     /// those of other strands, and last second ones of bodies.
     pub touched: Vec<usize>,
-    /// The strands that two bodies have planes for in this step, of which links count for one.
+    /// The strands that two bodies have planes for in this step, of which one is no part of the figure.
     pub between: Mask,
     /// Those that are near one whose shape is exact, a ball or a capsule; and all, where there is any.
     pub on_exact: Mask,

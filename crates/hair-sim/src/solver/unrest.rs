@@ -5,7 +5,7 @@
 //! body. A strand that others press on, or a body where anchors hold it or another is as near, and that has gone to and fro by itself for some seconds gives in: its locks part no more
 //! ([`super::locks::PATIENCE`]), and it sticks where it is on the head, the faster the longer it goes on, as hair does that has felted. What swings
 //! gets on, and doesn't count for some seconds. So does a strand stick that rocks on a body, turning back in every step or every second one, about a particle that
-//! friction holds there. Roots, air, bodies and anchors that move make it forget.
+//! friction holds there, or that a ball lifts and lets fall long after all that acts came to rest. Roots, air, bodies and anchors that move make it forget.
 
 use crate::{
     forces::springs::Spring,
