@@ -4,6 +4,7 @@ mod clear;
 mod drawn;
 pub(crate) mod forms;
 mod load;
+mod pieces;
 mod section;
 
 pub(crate) use clear::{Followed, Gap, clear, followed, gaps};

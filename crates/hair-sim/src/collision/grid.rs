@@ -70,7 +70,7 @@ impl SignedDistance {
     ///
     /// When the mesh is empty or invalid, or the grid too large.
     pub fn new(points: &[Vec3], triangles: &[[u32; 3]], cell: f64) -> Result<Self, GridError> {
-        Self::by(Inside::Odd, points, triangles, cell)
+        Self::by(Inside::Odd, points, &[triangles], cell)
     }
 
     /// The same of a mesh of pieces, of which some may lie within others or cross them, as clothes and caps do, with holes and doubled walls: what is within
@@ -84,13 +84,26 @@ impl SignedDistance {
         triangles: &[[u32; 3]],
         cell: f64,
     ) -> Result<Self, GridError> {
-        Self::by(Inside::Wound, points, triangles, cell)
+        Self::by(Inside::Wound, points, &[triangles], cell)
+    }
+
+    /// The same of several meshes that may overlap and lie in each other, as one body: the least of their distances, so that inside no wall of another is near.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Self::new`], with triangles numbered mesh after mesh.
+    pub fn of_union(
+        points: &[Vec3],
+        meshes: &[Vec<[u32; 3]>],
+        cell: f64,
+    ) -> Result<Self, GridError> {
+        Self::by(Inside::Odd, points, meshes, cell)
     }
 
     fn by(
         inside: Inside,
         points: &[Vec3],
-        triangles: &[[u32; 3]],
+        meshes: &[impl AsRef<[[u32; 3]]>],
         cell: f64,
     ) -> Result<Self, GridError> {
         let Extent {
@@ -98,10 +111,20 @@ impl SignedDistance {
             size,
             center,
             radius,
-        } = Extent::of(points, triangles, cell)?;
+        } = Extent::of(points, meshes, cell)?;
+        let grid = Points { origin, cell, size };
         let corner = |i: u32| points[i as usize].as_dvec3();
-        let triangles: Vec<[DVec3; 3]> = triangles.iter().map(|t| t.map(corner)).collect();
-        let values = Points { origin, cell, size }.distances(&triangles, inside);
+        let mut values: Vec<f32> = Vec::new();
+        for triangles in meshes.iter().map(AsRef::as_ref).filter(|m| !m.is_empty()) {
+            let triangles: Vec<[DVec3; 3]> = triangles.iter().map(|t| t.map(corner)).collect();
+            let own = grid.distances(&triangles, inside);
+            if values.is_empty() {
+                values = own;
+            } else {
+                let pairs = values.iter_mut().zip(own);
+                pairs.for_each(|(value, own)| *value = value.min(own));
+            }
+        }
         Ok(Self {
             origin,
             cell,
@@ -120,7 +143,7 @@ impl SignedDistance {
     ///
     /// Those of [`Self::new`].
     pub fn check(points: &[Vec3], triangles: &[[u32; 3]], cell: f64) -> Result<(), GridError> {
-        Extent::of(points, triangles, cell).map(drop)
+        Extent::of(points, &[triangles], cell).map(drop)
     }
 
     /// Centre and radius of a ball around the mesh.
@@ -312,26 +335,31 @@ struct Extent {
 }
 
 impl Extent {
-    fn of(points: &[Vec3], triangles: &[[u32; 3]], cell: f64) -> Result<Self, GridError> {
-        if triangles.is_empty() {
+    fn of(
+        points: &[Vec3],
+        meshes: &[impl AsRef<[[u32; 3]]>],
+        cell: f64,
+    ) -> Result<Self, GridError> {
+        let triangles = || meshes.iter().flat_map(AsRef::as_ref);
+        if triangles().next().is_none() {
             return Err(GridError::Empty);
         }
         if let Some(i) = points.iter().position(|p| !p.is_finite()) {
             return Err(GridError::NotFinite(i));
         }
-        for (triangle, corners) in triangles.iter().enumerate() {
+        for (triangle, corners) in triangles().enumerate() {
             if let Some(&point) = corners.iter().find(|&&c| c as usize >= points.len()) {
                 return Err(GridError::Index { triangle, point });
             }
         }
         let corner = |i: u32| points[i as usize].as_dvec3();
         let (mut low, mut high) = (DVec3::MAX, DVec3::MIN);
-        for &i in triangles.iter().flatten() {
+        for &i in triangles().flatten() {
             low = low.min(corner(i));
             high = high.max(corner(i));
         }
         let center = (low + high) * 0.5;
-        let radius = (triangles.iter().flatten())
+        let radius = (triangles().flatten())
             .map(|&i| (corner(i) - center).length())
             .fold(0.0, f64::max);
         let margin = 3.0 * cell;

@@ -1,13 +1,12 @@
 //! The forms that a body's mesh takes in time, and their distances.
 
-use super::drawn::Surface;
+use super::{drawn::Surface, pieces::parted};
 use crate::once::once;
 use glam::{DVec3, Vec3};
 use hair_sim::{GridError, SignedDistance};
 use mesh_io::Welded;
 use mesh_lines::{Beside, Topology};
 use rayon::prelude::*;
-use std::collections::HashSet;
 use std::sync::OnceLock;
 
 /// Cells on the longest side of a form: what is thinner than two of them is not felt.
@@ -83,8 +82,7 @@ impl Form {
 
     /// Whether it has holes that a point may be lost through: edges of one triangle alone, longer together than the form. Corners at one place are one.
     pub fn is_open(&self) -> bool {
-        let triangles = self.triangles.iter();
-        let welded = Welded::from_corners(triangles.map(|t| t.map(|i| self.positions[i as usize])));
+        let welded = self.welded();
         let Ok(topology) = Topology::new(&welded.positions, &welded.triangles) else {
             return false;
         };
@@ -99,23 +97,24 @@ impl Form {
         border.map(length).sum::<f32>() > self.longest_side()
     }
 
-    /// Where each triangle is there twice, as programs write what is to be seen from both sides: each of them once. What goes through such a surface
-    /// would come out of it at once.
-    fn single_sided(&self) -> Option<Vec<[u32; 3]>> {
-        let mut known = HashSet::new();
-        let is_new = |triangle: &&[u32; 3]| {
-            // So that 0 and -0 are one place.
-            let place = |i: u32| {
-                (self.positions[i as usize] + Vec3::ZERO)
-                    .to_array()
-                    .map(f32::to_bits)
-            };
-            let mut corners = triangle.map(place);
-            corners.sort_unstable();
-            known.insert(corners)
-        };
-        let once: Vec<[u32; 3]> = self.triangles.iter().filter(is_new).copied().collect();
-        (2 * once.len() == self.triangles.len()).then_some(once)
+    /// Its surface with one corner at each place.
+    fn welded(&self) -> Welded {
+        let triangles = self.triangles.iter();
+        Welded::from_corners(triangles.map(|t| t.map(|i| self.positions[i as usize])))
+    }
+
+    /// Distances about [its middle](Forms::middle).
+    fn distances(&self, cell: f64) -> Result<SignedDistance, GridError> {
+        let mut mesh = self.welded();
+        if mesh.triangles.is_empty() {
+            // All are without area.
+            (mesh.positions, mesh.triangles) = (self.positions.clone(), self.triangles.clone());
+        }
+        let parts = parted(&mesh);
+        for place in &mut mesh.positions {
+            *place -= self.middle;
+        }
+        SignedDistance::of_union(&mesh.positions, &parts, cell)
     }
 
     fn longest_side(&self) -> f32 {
@@ -181,11 +180,8 @@ impl Forms {
     pub fn grid(&self, form: usize) -> &SignedDistance {
         let form = &self.forms[form];
         once(&form.grid, || {
-            let single = form.single_sided();
-            let triangles = single.as_deref().unwrap_or(&form.triangles);
-            let places: Vec<Vec3> = form.positions.iter().map(|p| *p - form.middle).collect();
-            SignedDistance::new(&places, triangles, self.cell)
-                .expect("forms are checked when they are read")
+            let distances = form.distances(self.cell);
+            distances.expect("forms are checked when they are read")
         })
     }
 
@@ -417,6 +413,47 @@ mod tests {
         let forms = [single, double].map(|form| Forms::new(vec![form], 1.0, End::Stays).unwrap());
         assert_eq!(forms[0].grid(0), forms[1].grid(0));
         assert!(forms[1].grid(0).distance(DVec3::ZERO) < -0.09);
+    }
+
+    #[test]
+    fn pieces_that_overlap_are_one_body() {
+        // A cube in another, one beside it into which it reaches, one that is wound inwards, and one without a side that reaches into that.
+        let mut all = cube(0.1);
+        for (half, by, is_inward, sides) in [
+            (0.05, Vec3::ZERO, false, 12),
+            (0.08, Vec3::X * 0.1, false, 12),
+            (0.06, Vec3::X * -0.3, true, 12),
+            (0.03, Vec3::X * -0.35, false, 10),
+        ] {
+            let first = all.positions.len() as u32;
+            let other = cube(half);
+            all.positions
+                .extend(other.positions.iter().map(|p| *p + by));
+            all.normals.extend(other.normals);
+            let triangles = other.triangles.iter().take(sides);
+            let triangles = triangles.map(|t| t.map(|i| first + i));
+            all.triangles.extend(triangles.map(
+                |[a, b, c]| {
+                    if is_inward { [a, c, b] } else { [a, b, c] }
+                },
+            ));
+        }
+        let forms = Forms::new(vec![all], 1.0, End::Stays).unwrap();
+        let distance = |x: f64| forms.grid(0).distance(DVec3::X * x);
+        // How deep it is in that of them in which it is deepest: to no wall within.
+        for (x, depth) in [
+            (0.0, 0.1),
+            (0.05, 0.05),
+            (0.075, 0.055),
+            (0.14, 0.04),
+            (-0.3, 0.06),
+            (-0.35, 0.03),
+        ] {
+            assert!((distance(x) + depth).abs() < 0.01, "{x}: {}", distance(x));
+        }
+        for (x, gap) in [(0.2, 0.02), (-0.15, 0.05), (-0.21, 0.03), (-0.4, 0.02)] {
+            assert!((distance(x) - gap).abs() < 0.01, "{x}: {}", distance(x));
+        }
     }
 
     #[test]
