@@ -222,7 +222,7 @@ impl HairModel {
             .map(|collider| Collider::fixed(collider.shape, on_head(collider.now)))
             .map(|collider| Placed::new(&collider))
             .collect();
-        let mut bodies = followed(&bodies);
+        let mut bodies = followed(&bodies, 0);
         let unit_m = self.head.unit_m();
         for strand in 0..self.infos.len() {
             let (range, held) = (self.file.strands.point_range(strand), self.held(strand));

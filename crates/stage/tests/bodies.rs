@@ -252,6 +252,48 @@ fn cube(half: [f32; 3], at: [f32; 3]) -> String {
     text
 }
 
+/// A closed hat, in which roots lie, isn't pushed through by what grows under it: that leaves it below, as it would without it, and keeps out of it from there on.
+#[test]
+fn hair_under_a_hat_stays_there() {
+    let style = "(version: 1, zones: [(name: \"cap\", roots: whorl, tips: hairline(-180, 180), count: 16, hang: 0.3), \
+                 (name: \"tail\", form: tail, roots: [(180, 30)], hang: 1.5, count: 6)])";
+    let nod = "moves: [(move: nod, start: 0.2, length: 1, angle: 20)]";
+    let bare = Given::new(style, &format!("(version: 1, {nod})"), "");
+    let bare = bare.scene().unwrap();
+    let script =
+        format!("(version: 1, {nod}, bodies: [(on: head, shape: mesh, file: \"hat.obj\")])");
+    let given = Given::new(style, &script, "");
+    let (center, height_m) = (bare.head().center, bare.head().height_m);
+    let half = [0.6, 0.25, 0.6].map(|side| side * height_m);
+    let middle = center + Vec3::Y * (0.4 * height_m);
+    fs::write(
+        given.folder.path().join("hat.obj"),
+        cube(half, middle.to_array()),
+    )
+    .unwrap();
+    let hat = given.scene().unwrap();
+    let [mut with, mut without] = [Motion::new(), Motion::new()];
+    let (mut swing, mut at_rest) = (0.0_f32, 0.0_f32);
+    let styled = points(&bare, &mut Motion::new(), 0.0);
+    for frame in 0..=96 {
+        let time = frame as f32 / 24.0;
+        let with = points(&hat, &mut with, time);
+        let without = points(&bare, &mut without, time);
+        let farthest = |from: &[Vec3]| {
+            let apart = with.iter().zip(from).map(|(a, b)| a.distance(*b));
+            apart.fold(0.0, f32::max)
+        };
+        swing = swing.max(farthest(&styled));
+        at_rest = farthest(&without);
+    }
+    println!(
+        "hair under a hat swings by {swing:.3} m, and comes to rest within {at_rest:.4} m of where it does without it"
+    );
+    // What hangs out of it keeps a little below.
+    assert!(swing > 0.05, "{swing}");
+    assert!(at_rest < 0.01, "{at_rest}");
+}
+
 #[test]
 fn meshes_move_and_change_their_form() {
     let scene = Given::new(TAIL, "(version: 1)", "").scene().unwrap();

@@ -24,7 +24,7 @@ pub(crate) type Gap = [f32; PLACES.len()];
 
 /// Moves the points of a strand behind the first `held` out of bodies, with the way that is drawn between them, until each place is as far away as
 /// `gap` says of the link that ends at a point, which is `most` m at most, but for a tenth of a millimetre; where the last held point is in a ball or a capsule, hair comes
-/// out of it by and by ([`LEADS_OUT`]). Whether any moved: what is clear stays, to the bit.
+/// out of it by and by ([`LEADS_OUT`]), and where it is in a mesh that is [worn](followed), as under a hat, hair stays in that until it leaves it by itself. Whether any moved: what is clear stays, to the bit.
 pub(crate) fn clear(
     points: &mut [Vec3],
     held: usize,
@@ -94,7 +94,7 @@ fn take_along<'p>(points: impl IntoIterator<Item = &'p mut Vec3>, by: Vec3, shar
 /// The first point has no link.
 pub(crate) fn gaps(points: &[Vec3], bodies: &[Placed], most: f32) -> Vec<Gap> {
     let mut gaps = vec![[most; PLACES.len()]; points.len()];
-    let mut followed = followed(bodies);
+    let mut followed = followed(bodies, bodies.len());
     let mut near = Near::new(&mut followed);
     near.start(points, 0);
     for i in 1..points.len() {
@@ -114,9 +114,16 @@ pub(crate) fn gaps(points: &[Vec3], bodies: &[Placed], most: f32) -> Vec<Gap> {
 /// A body, and what is known of its distance from the strand that is followed.
 pub(crate) type Followed<'a> = (&'a Placed<'a>, Known);
 
-/// Bodies that strands are followed along, one strand after the other.
-pub(crate) fn followed<'a>(bodies: &'a [Placed<'a>]) -> Vec<Followed<'a>> {
-    (bodies.iter().map(|body| (body, Known::default()))).collect()
+/// Bodies that strands are followed along, one strand after the other: the first ones are the figure's own, whose skin roots are in; meshes after those may be worn.
+pub(crate) fn followed<'a>(bodies: &'a [Placed<'a>], of_figure: usize) -> Vec<Followed<'a>> {
+    let known = |(index, body): (usize, &'a Placed<'a>)| {
+        let known = Known {
+            may_be_worn: index >= of_figure && body.is_sampled(),
+            ..Known::default()
+        };
+        (body, known)
+    };
+    bodies.iter().enumerate().map(known).collect()
 }
 
 /// How far a strand is from each body at the point that it has been followed to.
@@ -140,8 +147,12 @@ pub(crate) struct Known {
     middle: f32,
     /// Whether the way to there may come nearer than was asked for. Then the first is the distance.
     may_meet: bool,
-    /// At the last point that is held, where that is in it; else infinity.
+    /// At the last point that is held, where that is in a ball or a capsule; else infinity.
     root: f32,
+    /// Whether it is a mesh that isn't the figure's.
+    may_be_worn: bool,
+    /// The first point behind the last one that is held that is out of it, where that one is in it as under a hat; else 0.
+    leaves: usize,
 }
 
 impl<'a, 'b> Near<'a, 'b> {
@@ -159,6 +170,12 @@ impl<'a, 'b> Near<'a, 'b> {
     fn root(&mut self, points: &[Vec3], at: usize) {
         let mut is_in = false;
         for (body, known) in &mut *self.bodies {
+            let is_inside = |at: &Vec3| body.distance(*at) < 0.0;
+            known.leaves = 0;
+            if known.may_be_worn && is_inside(&points[at]) {
+                let behind = points[at + 1..].iter().position(|p| !is_inside(p));
+                known.leaves = behind.map_or(points.len(), |first| at + 1 + first);
+            }
             // Most roots are in the mesh of their head.
             let root = if body.is_sampled() {
                 0.0
@@ -199,6 +216,11 @@ impl<'a, 'b> Near<'a, 'b> {
         let mut is_clear = true;
         for (body, known) in &mut *self.bodies {
             known.before = known.distance;
+            if to < known.leaves {
+                known.distance = f32::NEG_INFINITY;
+                known.may_meet = false;
+                continue;
+            }
             // Nothing on the way is nearer than this: so the distance itself is not asked for.
             known.distance -= link;
             known.may_meet = known.distance - bulge <= gap;
@@ -229,6 +251,10 @@ impl<'a, 'b> Near<'a, 'b> {
         let led = led.map(|led| led[0] + (led[1] - led[0]) * PLACES[place]);
         for (body, known) in &mut *self.bodies {
             let gap = led.map_or(gap, |led| gap.min(known.root + led));
+            // The link by which it leaves what it is under goes through its surface.
+            if to < known.leaves || to == known.leaves && place > 0 {
+                continue;
+            }
             // No more than the distance.
             let least = match place {
                 _ if moves => f32::NEG_INFINITY,
@@ -323,7 +349,7 @@ mod tests {
         assert!(clear(
             &mut moved,
             1,
-            &mut followed(&[ball]),
+            &mut followed(&[ball], 1),
             1e-3,
             |_| [1e-3; 4]
         ));
@@ -335,7 +361,7 @@ mod tests {
         assert!(!clear(
             &mut same,
             1,
-            &mut followed(&[ball]),
+            &mut followed(&[ball], 1),
             -0.06,
             |_| [-0.06; 4]
         ));
@@ -351,7 +377,7 @@ mod tests {
             .collect();
         let mut moved = straight.clone();
         let gap = 1e-3;
-        let mut bodies = followed(std::slice::from_ref(&ball));
+        let mut bodies = followed(std::slice::from_ref(&ball), 1);
         clear(&mut moved, 1, &mut bodies, gap, |_| [gap; 4]);
         assert_eq!(moved[0], straight[0]);
         for link in moved.windows(2) {
@@ -385,7 +411,7 @@ mod tests {
                 }
             }
             let mut same = points.clone();
-            prop_assert!(!clear(&mut same, 1, &mut followed(&bodies), 1e-3, |i| own[i]));
+            prop_assert!(!clear(&mut same, 1, &mut followed(&bodies, 0), 1e-3, |i| own[i]));
             prop_assert!(same == points);
         }
     }

@@ -378,7 +378,7 @@ impl Dynamics {
         }
         let posture = self.posture_at(self.shown, driver);
         let bodies = self.bodies_at(self.shown, &posture, driver);
-        let start = || followed(&bodies);
+        let start = || followed(&bodies, self.bodies.of_figure());
         let keep_out = |bodies: &mut Vec<Followed>, first: usize, points: &mut [Vec3]| {
             let gap = |i| self.gaps[first + i];
             clear(points, 1, bodies, GAP_M, gap);
@@ -400,7 +400,7 @@ impl Dynamics {
     pub fn keep_out(&self, driver: Driver, time: f64, points: &mut [Vec3]) -> Vec<Range<usize>> {
         let posture = self.posture_at(time, driver);
         let bodies = self.bodies_at(time, &posture, driver);
-        let mut bodies = followed(&bodies);
+        let mut bodies = followed(&bodies, self.bodies.of_figure());
         let parts = self.guides.iter().map(|part| &part.points);
         let parts = parts.chain(self.carried.ranges()).filter(|range| {
             let gap = |i| self.gaps[range.start + i];

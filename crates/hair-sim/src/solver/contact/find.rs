@@ -1,5 +1,7 @@
 //! Finding the planes of a step, from where particles go by themselves.
 
+use glam::DVec3;
+
 use crate::{
     collision::shape::{Collider, LEADS_OUT},
     lanes::{LANES, Lane, Mask, Number, Vec3},
@@ -30,6 +32,8 @@ pub(crate) struct Ways {
     pub(super) near: Vec<Mask>,
     /// How far the strands' roots are from the surface of each body that they are in when the step ends, in m; infinity of the others.
     roots: Vec<Lane>,
+    /// How many particles from the root on are in each mesh of its own when the step starts, where the root is.
+    under: Vec<[usize; LANES]>,
 }
 
 impl Ways {
@@ -40,6 +44,7 @@ impl Ways {
             to: vec![Vec3::ZERO; count],
             near: vec![Mask::NONE; count],
             roots: Vec::new(),
+            under: Vec::new(),
         }
     }
 
@@ -50,6 +55,25 @@ impl Ways {
         let depths = bodies_of.map(|(guard, body)| guard.depths::<T>(bodies.now, &body.shape));
         self.roots.clear();
         self.roots.extend(depths);
+    }
+
+    /// Takes note of what is under meshes, as hair is under a hat: it isn't pushed through it. What is of the figure, whose skin roots are in, keeps hair out of all of it.
+    fn look_under(&mut self, batch: &Batch, bodies: &Bodies, lanes: Mask) {
+        let inside =
+            |body: &Collider, at: DVec3| body.at_start().distance(body.before.to_local(at)) < 0.0;
+        self.under.clear();
+        for (index, (body, guard)) in bodies.colliders.iter().zip(bodies.guards).enumerate() {
+            let is_of_figure = index < bodies.of_one_figure.max(1);
+            self.under.push(std::array::from_fn(|lane| {
+                let root = bodies.before.get(lane);
+                if is_of_figure || guard.has_links || !lanes.get(lane) || !inside(body, root) {
+                    return 0;
+                }
+                let mut own = self.from[..batch.counts[lane]].iter();
+                let first_out = own.position(|from| !inside(body, from.get(lane)));
+                first_out.unwrap_or(batch.counts[lane])
+            }));
+        }
     }
 
     /// Bodies with how deep the root of a strand is in each.
@@ -307,6 +331,7 @@ fn detect_with_links<T: Number>(
                 return 0;
             }
             ways.look_at_roots::<T>(bodies);
+            ways.look_under(batch, bodies, any);
             let looked = Looked {
                 batch,
                 state,
@@ -437,6 +462,9 @@ impl Looked<'_> {
         }
         let colliders = self.ways.of_root(self.bodies.colliders, lane);
         for (index, (collider, root)) in colliders.enumerate() {
+            if k < self.ways.under[index][lane] {
+                continue;
+            }
             let lift = if index == of { *last_lift } else { 0.0 };
             let path = path.led_out(root);
             let lifted = Path {
