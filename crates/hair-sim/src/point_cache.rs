@@ -116,7 +116,7 @@ impl PointCache {
     /// As [`Self::sample`].
     pub fn sample_smooth(&self, time: f64, points: &mut [Vec3]) {
         let time_of = |key: usize| f64::from(self.times[key]);
-        let keys = key_weights(self.times.len(), time_of, time);
+        let keys = key_weights(self.times.len(), time_of, |_| false, time);
         assert_eq!(points.len(), self.samples[0].len());
         for (i, point) in points.iter_mut().enumerate() {
             let weighted = keys.map(|(key, weight)| self.samples[key][i].as_dvec3() * weight);

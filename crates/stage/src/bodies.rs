@@ -53,6 +53,16 @@ struct Key {
     size: f64,
 }
 
+impl Key {
+    /// Whether the body stands at both alike.
+    fn is_alike(&self, other: &Self) -> bool {
+        Self {
+            time: other.time,
+            ..*self
+        } == *other
+    }
+}
+
 /// Where a body's own space has come to, and how many times as large it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Placed {
@@ -123,7 +133,9 @@ impl Body {
         if self.keys.is_empty() {
             return key;
         }
-        for (index, weight) in key_weights(self.keys.len(), |key| self.keys[key].time, time) {
+        let time_of = |key: usize| self.keys[key].time;
+        let is_held = |key: usize| self.keys[key].is_alike(&self.keys[key + 1]);
+        for (index, weight) in key_weights(self.keys.len(), time_of, is_held, time) {
             let own = &self.keys[index];
             key.shift += own.shift * weight;
             key.turn += own.turn * weight;

@@ -258,7 +258,12 @@ impl MotionScript {
         if self.keys.is_empty() {
             return (turn, shift);
         }
-        for (key, weight) in key_weights(self.keys.len(), |key| self.keys[key].time, time) {
+        let time_of = |key: usize| self.keys[key].time;
+        let is_held = |key: usize| {
+            let [here, next] = [key, key + 1].map(|key| &self.keys[key]);
+            here.turn == next.turn && here.shift == next.shift
+        };
+        for (key, weight) in key_weights(self.keys.len(), time_of, is_held, time) {
             turn += self.keys[key].turn * weight;
             shift += self.keys[key].shift * weight;
         }
