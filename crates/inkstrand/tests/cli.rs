@@ -519,6 +519,51 @@ fn files_that_a_preset_names_are_looked_for() {
     }
 }
 
+/// What the preset names in their place isn't wrong, and neither is its script.
+#[test]
+fn files_of_lists_that_set_names_are_not_told_where_the_preset_names_others() {
+    let folder = folder();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    write(
+        "good.obj",
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n",
+    );
+    write("bad.obj", "v 0 0 0\n");
+    write("still.motion.ron", "(version: 1)");
+    write(
+        "lists.ron",
+        "(version: 1, hair: (file: \"small.strands.ron\"), head: (shape: bust), \
+         motion: (file: \"still.motion.ron\"), meshes: [(file: \"good.obj\")], bodies: [(shape: mesh, file: \"good.obj\")], \
+         layers: [(effect: \"hair.base\")])",
+    );
+    for (set, message) in [
+        (
+            "bodies.1.file=none.obj",
+            "--set bodies.1.file=none.obj: there is no `none.obj`",
+        ),
+        (
+            "meshes.1.file=none.obj",
+            "--set meshes.1.file=none.obj: there is no `none.obj`",
+        ),
+        (
+            "meshes.1.texture=no.png",
+            "--set meshes.1.texture=no.png: there is no `no.png`",
+        ),
+        ("bodies.1.file=bad.obj", "bad.obj: no triangle"),
+        ("meshes.1.file=bad.obj", "bad.obj: no triangle"),
+        (
+            "meshes.1.texture=bad.obj",
+            "bad.obj is neither PNG nor JPEG",
+        ),
+        ("bodies.1.file=none.##.obj", "none.##.obj: there is no file"),
+    ] {
+        inkstrand(folder.path(), &["render", "lists.ron", "--set", set])
+            .assert()
+            .code(1)
+            .stderr(contains(format!("inkstrand: {message}")));
+    }
+}
+
 #[test]
 fn a_picture_that_set_names_is_told_with_the_option() {
     let folder = folder();

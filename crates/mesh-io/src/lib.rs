@@ -48,7 +48,7 @@ mod read;
 mod rig;
 mod sequence;
 #[cfg_attr(
-    not(feature = "gltf"),
+    not(any(feature = "gltf", test)),
     expect(dead_code, reason = "only glTF files have tracks")
 )]
 mod track;

@@ -1,6 +1,6 @@
 //! Files that this project did not make, in the folder that `INKSTRAND_DATA` names.
-#![expect(clippy::print_stderr, reason = "skipped tests say so")]
 #![cfg(feature = "gltf")]
+#![expect(clippy::print_stderr, reason = "skipped tests say so")]
 
 use std::path::{Path, PathBuf};
 

@@ -160,13 +160,13 @@ impl<'r> Preset<'r> {
         }
         for mesh in &self.meshes {
             if let Err(error) = painted::check(&mesh.section, &files.preset_folder) {
-                found.add(Err(PresetErrors(vec![mesh.mistake(error.to_string())])));
+                found.0.extend(mesh.mistake(error.to_string()));
             }
             let texture = mesh.section.texture_path(&files.preset_folder);
             let texture = texture.filter(|path| path.is_file());
             if let Some(Err(error)) = texture.map(|path| painted::check_picture(&path)) {
-                let mistake = mesh.mistake_of_texture(format!("texture: {error}"));
-                found.add(Err(PresetErrors(vec![mistake])));
+                let message = format!("texture: {error}");
+                found.0.extend(mesh.mistake_of_texture(message));
             }
         }
         found
@@ -247,6 +247,14 @@ impl<'r> Preset<'r> {
         let named = self.named(files);
         if let Some(file) = named.iter().find(is_of) {
             return self.mistake(file, message);
+        }
+        // What the caller has set in a list stands nowhere.
+        let folder = &files.preset_folder;
+        let of_meshes = self.meshes.iter().flat_map(|mesh| mesh.files_set(folder));
+        let of_bodies = self.bodies.iter().flat_map(|body| body.files_set(folder));
+        let begins = |path: PathBuf| message.starts_with(&path.display().to_string());
+        if of_meshes.chain(of_bodies).any(begins) {
+            return Ok(());
         }
         // Of files that the preset does not name, its script does.
         let is_of_file = matches!(

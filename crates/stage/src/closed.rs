@@ -62,8 +62,9 @@ pub(crate) struct Closed {
     period: f64,
     frames: usize,
     strands: Vec<Range<usize>>,
-    /// What simulates, until the loop is closed.
-    dynamics: Option<Dynamics>,
+    /// What simulates until the loop is closed, and then keeps hair that is held out of bodies.
+    dynamics: Dynamics,
+    is_closed: bool,
     /// Shapes on the head at rest: of the frames of the last two rounds while it is simulated, then of the loop.
     shapes: Vec<Vec<Vec3>>,
     rounds: usize,
@@ -93,7 +94,8 @@ impl Closed {
             period,
             frames,
             strands: (0..strands.len()).map(|i| strands.point_range(i)).collect(),
-            dynamics: Some(dynamics),
+            dynamics,
+            is_closed: false,
             shapes: Vec::new(),
             rounds: 0,
             left_m: 0.0,
@@ -103,12 +105,17 @@ impl Closed {
 
     /// How well hair came back; nothing while that isn't known.
     pub fn came_back(&self) -> Option<Return> {
-        self.dynamics.is_none().then_some(Return {
+        self.is_closed.then_some(Return {
             frames: self.frames,
             rounds: self.rounds,
             left_m: self.left_m,
             mean_left_m: self.mean_left_m,
         })
+    }
+
+    /// What knows the bodies.
+    pub fn dynamics(&self) -> &Dynamics {
+        &self.dynamics
     }
 
     /// Simulates for as long as `goes_on` says so, which is asked before each step. Whether the loop is closed.
@@ -123,7 +130,8 @@ impl Closed {
         goes_on: &mut dyn FnMut() -> bool,
     ) -> Result<bool, StageError> {
         let height_m = object.hair().head.height_m;
-        while let Some(dynamics) = &mut self.dynamics {
+        while !self.is_closed {
+            let dynamics = &mut self.dynamics;
             let frame = self.rounds * self.frames + self.shapes.len() % self.frames;
             let time = self.period * frame as f64 / self.frames as f64;
             if dynamics.advance_to(time, driver, Seen::Well, goes_on)? != time {
@@ -154,6 +162,7 @@ impl Closed {
             if self.left_m <= ALIKE * height_m || self.rounds == MOST_ROUNDS {
                 self.blend();
                 self.keep_out(object, driver);
+                self.is_closed = true;
             } else {
                 self.shapes.drain(..self.frames);
             }
@@ -173,17 +182,14 @@ impl Closed {
         }
     }
 
-    /// Moves hair of the loop out of bodies, into which it may have been blended, and is done with what simulates. What is out of them keeps its bits.
+    /// Moves hair of the loop out of bodies, into which it may have been blended. What is out of them keeps its bits.
     fn keep_out(&mut self, object: &Object, driver: Driver) {
-        let Some(dynamics) = self.dynamics.take() else {
-            return;
-        };
         for (frame, shape) in self.shapes.iter_mut().enumerate() {
             let time = self.period * frame as f64 / self.frames as f64;
             let pose = driver.head_at(time);
             let mut points = shape.clone();
             move_by(object, pose, &mut points);
-            for moved in dynamics.keep_out(driver, time, &mut points) {
+            for moved in self.dynamics.keep_out(driver, time, &mut points) {
                 let points = &mut points[moved.clone()];
                 off_head(object, pose, points);
                 shape[moved].copy_from_slice(points);

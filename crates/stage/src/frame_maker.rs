@@ -163,10 +163,7 @@ impl FrameMaker {
         let looks = scene.objects().iter().map(Object::look);
         let clips = Clips::of(looks.flat_map(|look| &look.layers))?;
         let (mut decals, mut layers_before) = (Vec::new(), 0);
-        let time = LineTime {
-            time_s: f64::from(motion.time_s()),
-            fps: f64::from(scene.fps()),
-        };
+        let time = LineTime::of(scene, motion);
         for (index, object) in scene.objects().iter().enumerate() {
             match objects.get_mut(index) {
                 Some(frame) => frame.follow(object),
@@ -311,13 +308,14 @@ impl FrameMaker {
         let Some((look, time)) = &self.of else {
             return false;
         };
+        let other_time = (*time != motion.time_s()).then(|| LineTime::of(scene, motion));
         let is_same = Arc::ptr_eq(look, scene.shared_look())
             && self.camera.as_ref() == Some(camera)
             && self.objects.len() == scene.objects().len();
         let mut objects = self.objects.iter().zip(scene.objects()).enumerate();
         is_same
             && objects.all(|(index, (frame, object))| {
-                frame.is_as_before(object, motion.of(index, object), *time == motion.time_s())
+                frame.is_as_before(object, motion.of(index, object), other_time)
             })
     }
 
@@ -432,14 +430,22 @@ impl ObjectFrame {
     }
 
     /// Whether the object would be drawn as it was last; what moves in time alone only where the time is the same.
-    fn is_as_before(&self, object: &Object, motion: &ObjectMotion, is_same_time: bool) -> bool {
+    fn is_as_before(
+        &self,
+        object: &Object,
+        motion: &ObjectMotion,
+        other_time: Option<LineTime>,
+    ) -> bool {
         let look = object.look();
         // Strands may twist in their places.
         let turns = look.reads_material() && motion.dynamics().is_some();
         self.of.is_drawn_as(object)
             && self.pose == motion.head_pose()
             && self.bodies_s == bodies_s(object, motion)
-            && (is_same_time || !(turns || look.reads_time() || self.lines.is_growing()))
+            && other_time.is_none_or(|time| {
+                let goes_on = turns || look.reads_time() || self.lines.is_growing();
+                !goes_on && self.lines.stay(object, time)
+            })
             && self.points == motion.points(object)
     }
 

@@ -2,8 +2,8 @@
 //!
 //! Lines hang on nothing but the meshes and the eye, so that frames may be drawn in any order. A strand of theirs has no clump, and no number of
 //! its own: what varies along it is fixed to the surface. Only where something varies along contours, which have no fixed place, as marks of brushes or the trembling of a hand do, these are followed
-//! from frame to frame, at the preset's rate from the start on, as hair is simulated: so a frame is the same whichever frames are asked for. A moment between
-//! two frames follows the one before it, and none follows that moment.
+//! from frame to frame, at the preset's rate from the start on, as hair is simulated, and in a loop from the start of the round before: so a frame is the same
+//! whichever frames are asked for. A moment between two frames follows the one before it, and none follows that moment.
 
 mod marks;
 mod mesh;
@@ -102,30 +102,40 @@ impl HeadLines {
         Ok(lines)
     }
 
-    /// The whole frames through which contours are still to be followed before they are looked for in frame `now`: none where they aren't followed. Where time
-    /// went back they begin anew: of what goes round in so many frames, a round before the one that `now` is in, so that they come out of each round as they
-    /// went into it.
+    /// The whole frames through which contours are still to be followed before they are looked for in frame `now`: none where they aren't followed. They
+    /// begin anew where [`Self::frames_since`] has nothing.
     pub fn frames_before(&mut self, now: f64, round: Option<f64>) -> Range<i64> {
-        let is_followed = self.followed.iter().any(Option::is_some);
-        if !is_followed || !now.is_finite() {
+        if !self.is_followed() || !now.is_finite() {
             return 0..0;
         }
-        if self.at.is_some_and(|at| at > now + SAME_FRAME) {
+        self.frames_since(now, round).unwrap_or_else(|| {
             self.followed
                 .iter_mut()
                 .flatten()
                 .for_each(|followed| *followed = Followed::default());
             self.at = None;
             self.seen = None;
-        }
-        let first = match self.at {
-            Some(at) => (at + SAME_FRAME).floor() as i64 + 1,
-            None => match round {
-                Some(round) => (((now / round).floor() - 1.0) * round).floor() as i64,
-                None => now.floor().min(0.0) as i64,
-            },
-        };
-        first..(now - SAME_FRAME).ceil() as i64
+            start_of(now, round)..end_of(now)
+        })
+    }
+
+    /// The whole frames between the last one and frame `now`. Nothing where contours aren't followed from there: time went back, or what goes round in so
+    /// many frames has come into another round. Going on would be cheaper, but then it would make a difference which frame is drawn first.
+    pub fn frames_since(&self, now: f64, round: Option<f64>) -> Option<Range<i64>> {
+        let goes_on =
+            |at: &f64| *at <= now + SAME_FRAME && start_of(*at, round) == start_of(now, round);
+        let at = self.at.filter(goes_on)?;
+        Some((at + SAME_FRAME).floor() as i64 + 1..end_of(now))
+    }
+
+    /// Whether some contours are followed from frame to frame.
+    pub fn is_followed(&self) -> bool {
+        self.followed.iter().any(Option::is_some)
+    }
+
+    /// Whether the head was in this pose in the last frame.
+    pub fn was_in(&self, pose: HeadPose) -> bool {
+        self.seen.is_some_and(|seen| seen.pose == pose)
     }
 
     /// Whether frame `now`, in which the head has this pose, shows what the one before did: then contours are followed to it.
@@ -260,6 +270,23 @@ impl HeadLines {
     pub fn found(&self) -> &[Vec<LineStrand>] {
         &self.strands
     }
+}
+
+/// The whole frame from which contours are followed to frame `now`: the first one, or of what goes round in so many frames that in which the round before
+/// begins, so that they come out of each round as they went into it.
+fn start_of(now: f64, round: Option<f64>) -> i64 {
+    match round {
+        Some(round) => {
+            let rounds_before = ((now + SAME_FRAME) / round).floor() - 1.0;
+            (rounds_before * round + SAME_FRAME).floor() as i64
+        }
+        None => now.floor().min(0.0) as i64,
+    }
+}
+
+/// The whole frame that is the first one not before frame `now`.
+fn end_of(now: f64) -> i64 {
+    (now - SAME_FRAME).ceil() as i64
 }
 
 /// The lists of lines that are of one mesh, each with its place in the look.

@@ -35,6 +35,8 @@ pub(crate) struct ObjectMotion {
     dynamics: Option<Dynamics>,
     /// In place of dynamics where the script goes round.
     closed: Option<Closed>,
+    /// Of hair that is baked, and held: what keeps it out of bodies, and simulates nothing.
+    of_bake: Option<Dynamics>,
     /// Whether the points are those of the loop.
     is_looped: bool,
     /// What this is the motion of, and the scene's frames a second.
@@ -217,6 +219,7 @@ impl ObjectMotion {
             points: Vec::new(),
             dynamics: None,
             closed: None,
+            of_bake: None,
             is_looped: false,
             of: None,
         }
@@ -236,6 +239,7 @@ impl ObjectMotion {
         if !self.of.as_ref().is_some_and(is_same) {
             self.dynamics = None;
             self.closed = None;
+            self.of_bake = None;
             self.of = Some((object.clone(), fps));
         } else if let Some((of, _)) = &mut self.of
             && of.placement() != object.placement()
@@ -256,7 +260,12 @@ impl ObjectMotion {
             self.pose(driver, time);
             move_by(object, self.pose, &mut self.points);
             // Shoulders and other bodies stay where they are, or go elsewhere.
-            if let Some(dynamics) = &self.dynamics {
+            if object.hair().bake.is_some() && self.of_bake.is_none() {
+                self.of_bake = Self::of_bake(object, fps, driver)?;
+            }
+            let looped = self.closed.as_ref().filter(|_| self.is_looped);
+            let dynamics = looped.map(Closed::dynamics).or(self.of_bake.as_ref());
+            if let Some(dynamics) = dynamics.or(self.dynamics.as_ref()) {
                 dynamics.keep_out(driver, time, &mut self.points);
             }
         }
@@ -356,6 +365,16 @@ impl ObjectMotion {
             fps,
             look.seed,
         )
+    }
+
+    /// What moved hair that is baked, as it begins; nothing where nothing moves it.
+    fn of_bake(object: &Object, fps: f32, driver: Driver) -> Result<Option<Dynamics>, StageError> {
+        if !Dynamics::moves(&object.look().sections.dynamics, driver) {
+            return Ok(None);
+        }
+        let mut dynamics = Self::dynamics_of(object, fps)?;
+        dynamics.begin(driver)?;
+        Ok(Some(dynamics))
     }
 
     /// Puts the head, and hair that the head holds, where they are at `time` (seconds).

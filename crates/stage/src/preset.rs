@@ -301,10 +301,15 @@ impl<'r> Preset<'r> {
             _ => {
                 let layer_name = owner.strip_suffix(".brush").unwrap_or(owner);
                 let is_it = |layer: &&LayerSpec| layer.name == owner || layer.name == layer_name;
-                let layer = self.layers.iter().find(is_it)?;
-                let mut textures = textures_of(layer);
-                let texture = textures.find(|(own, ..)| *own == param);
-                (texture.map(|(.., file)| file), &None)
+                let file = match self.layers.iter().find(is_it) {
+                    Some(layer) => {
+                        let mut textures = textures_of(layer);
+                        let texture = textures.find(|(own, ..)| *own == param);
+                        texture.map(|(.., file)| file)
+                    }
+                    None => self.listed_file(owner, param),
+                };
+                (file, &None)
             }
         };
         if given.is_some() {
@@ -312,6 +317,19 @@ impl<'r> Preset<'r> {
         }
         let hint = "; it is relative to the preset's folder";
         no_file(&files.preset_folder.join(file?), hint)
+    }
+
+    /// The file that a parameter of a mesh or body names; of numbered files those that are there are found when they are read.
+    fn listed_file(&self, owner: &str, param: &str) -> Option<&str> {
+        let (list, number) = owner.split_once('.')?;
+        let index = number.parse::<usize>().ok()?.checked_sub(1)?;
+        let file = match (list, param) {
+            ("meshes", "file") => &self.meshes.get(index)?.section.file,
+            ("meshes", "texture") => &self.meshes.get(index)?.section.texture,
+            ("bodies", "file") => &self.bodies.get(index)?.section.file,
+            _ => return None,
+        };
+        file.as_deref().filter(|file| !is_sequence(file))
     }
 
     /// Where a section or list stands, in the file or in a base.
@@ -361,7 +379,7 @@ impl<'r> Preset<'r> {
         if let Some(number) = owner.strip_prefix("meshes.") {
             let words = ["mesh", "meshes"];
             let mesh = numbered(&mut self.meshes, number, words)?;
-            return set_text(&mut mesh.section, owner, param, text);
+            return mesh.set(owner, param, text);
         }
         if let Some(number) = owner.strip_prefix("lines.") {
             let words = ["list of lines", "lines"];
@@ -375,7 +393,7 @@ impl<'r> Preset<'r> {
         if let Some(number) = owner.strip_prefix("bodies.") {
             let words = ["body", "bodies"];
             let body = numbered(&mut self.bodies, number, words)?;
-            return set_text(&mut body.section, owner, param, text);
+            return body.set(owner, param, text);
         }
         let Some(section) = self.sections.by_name(owner) else {
             let message = of_a_list(owner, param).unwrap_or_else(|| self.no_owner(owner));

@@ -154,33 +154,63 @@ fn a_body_that_moves_takes_hair_along_and_what_it_swallows_comes_out() {
     }
 }
 
-/// Held hair goes with the head from frame to frame, and would go into what stays.
+/// Held hair goes with the head from frame to frame, and would go into what stays: simulated, in a loop, and of a bake, which shows what was baked.
 #[test]
 fn held_hair_keeps_out_of_bodies() {
-    let turns = "(version: 1, moves: [(move: turn, start: 0.1, length: 0.4, angle: 60)], \
-                 bodies: [(at: (0.35, -0.7, -0.65), radius: 0.2), (at: (-0.35, -0.7, -0.65), radius: 0.2)])";
-    let given = Given::new(TAIL, turns, "");
-    let mut held = Given::new(TAIL, turns, "");
-    held.preset = held.preset.replace(
-        "motion: (file: \"a.motion.ron\")",
-        "motion: (file: \"a.motion.ron\", on: 4, held: hair)",
+    let bodies =
+        "bodies: [(at: (0.35, -0.7, -0.65), radius: 0.2), (at: (-0.35, -0.7, -0.65), radius: 0.2)]";
+    let once = format!(
+        "(version: 1, moves: [(move: turn, start: 0.1, length: 0.4, angle: 60)], {bodies})"
     );
-    let [given, held] = [given.scene().unwrap(), held.scene().unwrap()];
-    let (center, height_m) = (given.head().center, given.head().height_m);
-    let (mut motion, mut holds) = (Motion::new(), Motion::new());
-    let (mut deepest, mut differs) = (0.0_f32, false);
-    for frame in 0..20_u32 {
-        let time = frame as f32 / 24.0;
-        let now = points(&held, &mut holds, time);
-        differs |= now != points(&given, &mut motion, time);
-        for x in [0.35, -0.35] {
-            let ball = center + Vec3::new(x, -0.7, -0.65) * height_m;
-            deepest = deepest.max(depth_in(&now, 6, ball, 0.2 * height_m));
+    let round = format!(
+        "(version: 1, period: 1, loop: true, moves: [(move: turn, start: 0.1, length: 0.4, angle: 60), \
+         (move: turn, start: 0.5, length: 0.4, angle: -60)], {bodies})"
+    );
+    let times = || (0..20_u32).map(|frame| frame as f32 / 24.0);
+    for (what, script) in [("once", once), ("in a loop", round)] {
+        let given = Given::new(TAIL, &script, "");
+        let mut held = Given::new(TAIL, &script, "");
+        held.preset = held.preset.replace(
+            "motion: (file: \"a.motion.ron\")",
+            "motion: (file: \"a.motion.ron\", on: 4, held: hair)",
+        );
+        let all_points = |scene: &Scene| -> Vec<Vec<Vec3>> {
+            let mut motion = Motion::new();
+            times()
+                .map(|time| points(scene, &mut motion, time))
+                .collect()
+        };
+        let scene = held.scene().unwrap();
+        let shown = all_points(&scene);
+        assert!(shown != all_points(&given.scene().unwrap()), "{what}");
+        let (center, height_m) = (scene.head().center, scene.head().height_m);
+        let depths = shown.iter().flat_map(|now| {
+            [0.35, -0.35].map(|x| {
+                let ball = center + Vec3::new(x, -0.7, -0.65) * height_m;
+                depth_in(now, 6, ball, 0.2 * height_m)
+            })
+        });
+        let deepest = depths.fold(0.0, f32::max);
+        println!("held hair {what}: {deepest:.1e} m in a ball");
+        assert!(deepest < 1e-3, "{what}: {deepest}");
+
+        let registry = registry();
+        let preset = Preset::parse("look.ron", &held.preset, &registry).unwrap();
+        let mut stage = Stage::new(&preset, &held.files()).unwrap();
+        let mut bake = Bake::new(&preset, &held.files(), &stage.scene).unwrap();
+        for time in times() {
+            stage.advance_to(time).unwrap();
+            stage.record(time, &mut bake);
         }
+        let file = held.folder.path().join("bake.strands.ron");
+        fs::write(&file, stage.bake_text(bake).unwrap()).unwrap();
+        let files = Files {
+            bake: Some(file),
+            ..held.files()
+        };
+        let baked = all_points(&Scene::load(&preset, &files).unwrap());
+        assert!(baked == shown, "{what}, of a bake");
     }
-    println!("held hair: {deepest:.1e} m in a ball");
-    assert!(differs);
-    assert!(deepest < 1e-3, "{deepest}");
 }
 
 /// A mesh that goes by more than its thickness from form to form takes hair along as one that `body_keys` move.

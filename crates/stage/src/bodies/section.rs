@@ -4,7 +4,7 @@ use crate::files::StageError;
 use crate::numbered::all_files;
 use crate::part::FilePart;
 use crate::preset::{is_sequence, missing};
-use effects::preset::{Field, Place, PresetError, Reader, suggestion};
+use effects::preset::{Field, Place, PresetError, Reader, SetError, set_text, suggestion};
 use effects::section::Section as _;
 use effects::{choices, section};
 use std::collections::HashSet;
@@ -118,7 +118,7 @@ const OF_SHAPES: [(&str, &[BodyShape]); 8] = [
 pub struct NamedBody {
     /// What is said of it.
     pub section: BodySection,
-    /// Where that stands, and its file's name.
+    /// Where that stands, and its file's name; nowhere where a program says it, or has set another file.
     place: Option<Place>,
 }
 
@@ -184,6 +184,23 @@ impl NamedBody {
     pub(crate) fn unread(&self, folder: &Path, error: &StageError) -> Option<PresetError> {
         let missing = self.missing(folder);
         missing.or_else(|| self.mistake(format!("file: {error}")))
+    }
+
+    /// Sets a parameter of what `owner` calls it from its text.
+    pub(crate) fn set(&mut self, owner: &str, param: &str, text: &str) -> Result<(), SetError> {
+        set_text(&mut self.section, owner, param, text)?;
+        if param == "file" {
+            self.place = None;
+        }
+        Ok(())
+    }
+
+    /// The files that the caller has set, which preset and script don't name.
+    pub(crate) fn files_set(&self, folder: &Path) -> Vec<PathBuf> {
+        match self.place {
+            Some(_) => Vec::new(),
+            None => self.section.files(folder),
+        }
     }
 
     /// A mistake where its file is named; none where a program says it.

@@ -313,17 +313,7 @@ impl Dynamics {
         let wanted = ((time + slack) / self.step).floor() as i64 + self.warm_up;
         let wanted = wanted.max(0);
         if wanted < self.done || self.done == 0 {
-            self.done = 0;
-            self.owed = 0;
-            self.seams = Seams::of(driver.script);
-            let start = self.time_of(0);
-            let first = self.pose_at(start, driver);
-            let styled = self.styled(driver);
-            let colliders = (self.bodies).colliders(driver.script, [start; 2], [&styled; 2]);
-            self.strands.restart((styled.head, &colliders), first)?;
-            self.ties.restart();
-            self.is_asleep = false;
-            self.gaps = self.gaps_at_start((styled.head, first), &colliders);
+            self.begin(driver)?;
         }
         let mut goes_on_to = |done: i64| done < wanted && goes_on();
         let is_seen = seen == Seen::Well;
@@ -364,6 +354,26 @@ impl Dynamics {
         Ok(if is_there { time } else { shown })
     }
 
+    /// Puts all hair where it is at the start.
+    ///
+    /// # Errors
+    ///
+    /// When the solver refuses the scene.
+    pub fn begin(&mut self, driver: Driver) -> Result<(), StageError> {
+        self.done = 0;
+        self.owed = 0;
+        self.seams = Seams::of(driver.script);
+        let start = self.time_of(0);
+        let first = self.pose_at(start, driver);
+        let styled = self.styled(driver);
+        let colliders = (self.bodies).colliders(driver.script, [start; 2], [&styled; 2]);
+        self.strands.restart((styled.head, &colliders), first)?;
+        self.ties.restart();
+        self.is_asleep = false;
+        self.gaps = self.gaps_at_start((styled.head, first), &colliders);
+        Ok(())
+    }
+
     /// The points that [`Self::write`] leaves where the head has them; None at the start: all of them.
     pub fn on_head(&self) -> Option<&[usize]> {
         (!self.is_at_start()).then_some(&self.on_head[..])
@@ -396,7 +406,7 @@ impl Dynamics {
         }
     }
 
-    /// Moves strands out of bodies as these are at `time` (seconds), as [`Self::write`] does. The points of those that were moved.
+    /// Moves strands out of bodies as these are at `time` (seconds), as [`Self::write`] does, once it has begun. The points of those that were moved.
     pub fn keep_out(&self, driver: Driver, time: f64, points: &mut [Vec3]) -> Vec<Range<usize>> {
         let posture = self.posture_at(time, driver);
         let bodies = self.bodies_at(time, &posture, driver);

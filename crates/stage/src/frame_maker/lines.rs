@@ -3,11 +3,14 @@
 use super::along;
 use crate::files::StageError;
 use crate::lines::{HeadLines, LineStrand};
-use crate::motion::{ObjectMotion, held_time, time_of_frame};
+use crate::motion::{Motion, ObjectMotion, held_time, time_of_frame};
 use crate::neck::PosedHead;
 use crate::object::Object;
 use crate::placement::Placement;
+use crate::preset::HeldChoice;
 use crate::reach::Sight;
+use crate::scene::Scene;
+use crate::script::HeadPose;
 use effects::layer_seed;
 use glam::Vec3;
 use render::{Head, NO_COLOR, NO_TAPER, StrandInfo};
@@ -28,8 +31,8 @@ pub(super) struct ObjectLines {
 /// When lines are looked for, and how many frames a second there are.
 #[derive(Clone, Copy)]
 pub(super) struct LineTime {
-    pub time_s: f64,
-    pub fps: f64,
+    time_s: f64,
+    fps: f64,
 }
 
 /// The lists of a frame that lines are appended to, and to each joint what it is told where something reads that.
@@ -55,6 +58,18 @@ impl ObjectLines {
         self.of_head.as_ref().is_some_and(HeadLines::is_growing)
     }
 
+    /// Whether they would be found as they are at another time, at which the object's head is as it was: in between it was so, too, as far as that matters.
+    pub fn stay(&self, object: &Object, time: LineTime) -> bool {
+        let lines = self.of_head.as_ref();
+        lines
+            .filter(|lines| lines.is_followed())
+            .is_none_or(|lines| {
+                let frames = lines.frames_since(time.frame(), time.round(object));
+                let was_so = |frame: i64| lines.was_in(pose_in(frame as f64, time.fps, object));
+                frames.is_some_and(|mut frames| frames.all(was_so))
+            })
+    }
+
     /// Follows the lines of the object's head to this frame, but for the frame itself: through poses that it was in before. It is left in its own.
     pub fn follow(
         &mut self,
@@ -75,15 +90,9 @@ impl ObjectLines {
             Some(lines) => lines,
             lines => lines.insert(HeadLines::new(neck, sets, rest_head)?),
         };
-        let now = time.frame();
-        let script = object.script();
-        let round = script.period.filter(|_| script.closes);
-        for frame in lines.frames_before(now, round.map(|seconds| seconds * time.fps)) {
-            // Where the script has the head then; a hand that turns it live isn't asked.
+        for frame in lines.frames_before(time.frame(), time.round(object)) {
             let frame = frame as f64;
-            let time_s = time_of_frame(frame, time.fps);
-            let held = held_time(&look.sections.motion, time.fps as f32, time_s);
-            let pose = script.head_at(held);
+            let pose = pose_in(frame, time.fps, object);
             if lines.stays(sight.camera(), pose, frame) {
                 continue;
             }
@@ -165,7 +174,32 @@ impl ObjectLines {
     }
 }
 
+/// Where the script has the object's head in a whole frame; a hand that turns it live isn't asked.
+fn pose_in(frame: f64, fps: f64, object: &Object) -> HeadPose {
+    let section = &object.look().sections.motion;
+    let time_s = time_of_frame(frame, fps);
+    object.script().head_at(match section.held {
+        HeldChoice::All => held_time(section, fps as f32, time_s),
+        HeldChoice::Hair => time_s,
+    })
+}
+
 impl LineTime {
+    /// That of a scene in motion.
+    pub fn of(scene: &Scene, motion: &Motion) -> Self {
+        Self {
+            time_s: f64::from(motion.time_s()),
+            fps: f64::from(scene.fps()),
+        }
+    }
+
+    /// In how many frames the object's script goes round, where it does.
+    fn round(self, object: &Object) -> Option<f64> {
+        let script = object.script();
+        let period = script.period.filter(|_| script.closes)?;
+        Some(period * self.fps)
+    }
+
     /// The frame that it is: a whole one where it is that as exactly as a time can say.
     fn frame(self) -> f64 {
         let now = self.time_s * self.fps;

@@ -3,7 +3,7 @@
 use super::missing;
 use crate::numbered::all_files;
 use crate::part::FilePart;
-use effects::preset::{Place, PresetError, Reader};
+use effects::preset::{Place, PresetError, Reader, SetError, set_text};
 use effects::{choices, section};
 use std::path::{Path, PathBuf};
 
@@ -98,8 +98,8 @@ pub const MESHES: FilePart = FilePart {
 pub struct NamedMesh {
     /// What is said of them.
     pub section: MeshSection,
-    /// Where their file's name stands, and their picture's.
-    place: Place,
+    /// Where their file's name stands, and their picture's; nowhere where another was set.
+    place: Option<Place>,
     texture: Option<Place>,
 }
 
@@ -144,7 +144,7 @@ impl NamedMesh {
             }
             let texture = fields.iter().find(|field| field.name == "texture");
             Self {
-                place: reader.place(name.map_or(item, |name| name.value)),
+                place: Some(reader.place(name.map_or(item, |name| name.value))),
                 texture: texture.map(|texture| reader.place(texture.value)),
                 section,
             }
@@ -158,21 +158,44 @@ impl NamedMesh {
         let wrong = |name: &Option<String>, param| missing(folder, param, name.as_ref()?);
         // Of numbered files those that are there are found when they are read.
         let file = wrong(file, "file").filter(|_| !self.section.is_sequence());
-        let file = file.map(|message| self.mistake(message));
-        let texture = wrong(texture, "texture").map(|message| self.mistake_of_texture(message));
+        let file = file.and_then(|message| self.mistake(message));
+        let texture = wrong(texture, "texture");
+        let texture = texture.and_then(|message| self.mistake_of_texture(message));
         file.into_iter().chain(texture).collect()
     }
 
-    /// A mistake where its picture is named.
-    pub(crate) fn mistake_of_texture(&self, message: String) -> PresetError {
-        let place = self.texture.clone().unwrap_or_else(|| self.place.clone());
-        PresetError { place, message }
+    /// Sets a parameter of what `owner` calls it from its text.
+    pub(super) fn set(&mut self, owner: &str, param: &str, text: &str) -> Result<(), SetError> {
+        set_text(&mut self.section, owner, param, text)?;
+        match param {
+            "file" => self.place = None,
+            "texture" => self.texture = None,
+            _ => {}
+        }
+        Ok(())
     }
 
-    /// A mistake where its file is named.
-    pub(crate) fn mistake(&self, message: String) -> PresetError {
-        let place = self.place.clone();
-        PresetError { place, message }
+    /// The files that the caller has set, which the preset doesn't name.
+    pub(crate) fn files_set(&self, folder: &Path) -> Vec<PathBuf> {
+        let files = match self.place {
+            Some(_) => Vec::new(),
+            None => self.section.files(folder),
+        };
+        let texture = self.section.texture_path(folder);
+        let texture = texture.filter(|_| self.texture.is_none());
+        files.into_iter().chain(texture).collect()
+    }
+
+    /// A mistake where its picture is named; none where the caller has set it.
+    pub(crate) fn mistake_of_texture(&self, message: String) -> Option<PresetError> {
+        let place = self.texture.clone()?;
+        Some(PresetError { place, message })
+    }
+
+    /// A mistake where its file is named; none where the caller has set it.
+    pub(crate) fn mistake(&self, message: String) -> Option<PresetError> {
+        let place = self.place.clone()?;
+        Some(PresetError { place, message })
     }
 }
 

@@ -85,6 +85,54 @@ fn lines_come_round_in_a_loop() {
     assert!(at(&mut make(), 70) == rounds[70], "alone");
 }
 
+/// Round after round, also where nothing moves as one begins, so that a picture is shown once more, and of a head that moves while hair is held.
+#[test]
+fn a_frame_of_a_loop_is_that_of_the_sequence() {
+    let lines = "(name: \"rim\", kind: \"contour, crease\", crease: 24)";
+    let turns = "moves: [(move: turn, start: 0.1, length: 0.1, angle: 20), (move: turn, start: 0.25, length: 0.1, angle: -20)]";
+    let beating = "(shape: wings, turn: (38, 0, 0), beat: 2)";
+    for (meshes, moves, motion) in [
+        (beating, "", ""),
+        ("(shape: cup)", turns, ""),
+        ("(shape: cup)", turns, "on: 2, held: hair"),
+        (beating, turns, "on: 2"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let script = folder.path().join("loop.motion.ron");
+        let text = format!("(version: 1, period: 0.5, loop: true, {moves})");
+        fs::write(&script, text).unwrap();
+        let files = Files {
+            motion: Some(script),
+            ..Files::default()
+        };
+        let registry = registry();
+        let make = || {
+            let text = format!(
+                "(version: 1, head: (shape: none), meshes: [{meshes}], motion: ({motion}), scene: (size: (240, 240)),
+                 camera: (distance: 2, pitch: 34), lines: [{lines}], layers: [{CHALK}])"
+            );
+            let preset = Preset::parse("look.ron", &text, &registry).unwrap();
+            Stage::new(&preset, &files).unwrap()
+        };
+        let mut last = Default::default();
+        // As programs do: what would be the last frame once more isn't made again.
+        let mut at = |stage: &mut Stage, frame: u32| {
+            stage.advance_to(frame as f32 / 24.0).unwrap();
+            if !stage.is_as_before().unwrap() {
+                let frame = stage.frame().unwrap();
+                last = (frame.paths.center.to_vec(), frame.marks.to_vec());
+            }
+            last.clone()
+        };
+        let mut all = make();
+        let sequence: Vec<_> = (0..26).map(|frame| at(&mut all, frame)).collect();
+        for frame in [1, 7, 11, 12, 13, 19, 24, 25] {
+            let (alone, expected) = (at(&mut make(), frame), &sequence[frame as usize]);
+            assert!(alone == *expected, "{meshes}, {moves}, {motion}: {frame}");
+        }
+    }
+}
+
 /// As `--time` asks for them, and as what is blurred by motion is made of.
 #[test]
 fn moments_between_frames_follow_the_one_before_and_are_not_followed() {

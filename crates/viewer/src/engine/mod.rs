@@ -142,7 +142,7 @@ pub struct Answer {
     pub problems: Vec<Problem>,
     /// Whether that is so of the first look.
     pub is_outdated: bool,
-    /// The files that the first look is read from, as far as its text can be read.
+    /// The files that the looks are read from, as far as their texts can be read.
     pub files: Vec<PathBuf>,
     /// Whether it is as sharp as it gets.
     pub is_final: bool,
@@ -266,7 +266,7 @@ impl<'r> Drawer<'r> {
     fn draw(&mut self, wish: &Wish, is_rough: bool, wishes: &mut Wishes) -> Option<Answer> {
         let drawn = catch_unwind(AssertUnwindSafe(|| self.draw_looks(wish, is_rough, wishes)));
         drawn.unwrap_or_else(|_| {
-            let files = self.slots.first().map(|slot| slot.files().to_vec());
+            let files = self.slots.iter().flat_map(Slot::files).collect();
             *self = Self::new(self.registry);
             let message = "drawing failed by a bug, which is told where the viewer was started";
             Some(Answer {
@@ -274,7 +274,7 @@ impl<'r> Drawer<'r> {
                 pictures: Vec::new(),
                 problems: vec![Problem::Failed(message.to_owned())],
                 is_outdated: true,
-                files: files.unwrap_or_default(),
+                files,
                 is_final: true,
             })
         })
@@ -302,8 +302,8 @@ impl<'r> Drawer<'r> {
             let problems = slot.follow(look);
             if index == 0 {
                 answer.is_outdated = !problems.is_empty();
-                answer.files = slot.files().to_vec();
             }
+            answer.files.extend(slot.files());
             answer.problems.extend(problems);
             let load = started.elapsed().as_secs_f64() * 1e3;
             let Some(facts) = slot.facts() else {

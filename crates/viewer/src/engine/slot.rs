@@ -19,8 +19,9 @@ pub(super) struct Slot<'r> {
     /// The look that was last followed, good or not, and what was wrong with it.
     look: Look,
     problems: Vec<Problem>,
-    /// The files that the last look that could be read names.
-    files: Vec<PathBuf>,
+    /// The files that the last look that could be read names, and those that meshes among them name.
+    named: Vec<PathBuf>,
+    files: Vec<Stamped>,
     loaded: Option<Loaded>,
     motion: Motion,
     frames: FrameMaker,
@@ -50,7 +51,19 @@ struct From {
     /// The names of lines and of what they are of, and those of lines and meshes that layers draw.
     lines: Vec<[Option<String>; 2]>,
     texts: Vec<(PathBuf, Arc<str>)>,
-    files: Vec<(PathBuf, Option<(u64, SystemTime)>)>,
+    files: Vec<Stamped>,
+}
+
+/// A file, with size and date where it is there.
+type Stamped = (PathBuf, Option<(u64, SystemTime)>);
+
+fn stamped(path: PathBuf) -> Stamped {
+    let stamp = || {
+        let about = fs::metadata(&path).ok()?;
+        Some((about.len(), about.modified().ok()?))
+    };
+    let stamp = stamp();
+    (path, stamp)
 }
 
 impl<'r> Slot<'r> {
@@ -59,6 +72,7 @@ impl<'r> Slot<'r> {
             registry,
             look: Look::default(),
             problems: Vec::new(),
+            named: Vec::new(),
             files: Vec::new(),
             loaded: None,
             motion: Motion::new(),
@@ -75,8 +89,8 @@ impl<'r> Slot<'r> {
     }
 
     /// The files that the look is read from, also where they can't be; of the last look whose text could be read.
-    pub fn files(&self) -> &[PathBuf] {
-        &self.files
+    pub fn files(&self) -> impl Iterator<Item = PathBuf> {
+        self.files.iter().map(|(path, _)| path.clone())
     }
 
     /// Takes on a look. One with mistakes changes nothing, and they are told.
@@ -106,8 +120,8 @@ impl<'r> Slot<'r> {
             .iter()
             .map(|layer| layer.name.clone())
             .collect();
-        let from = From::of(&preset, &files, look);
-        self.files = from.files.iter().map(|(path, _)| path.clone()).collect();
+        self.look_at_files(&preset, &files);
+        let from = From::of(&preset, look, &self.files);
         preset
             .layers
             .retain(|layer| look.layers.is_shown(&layer.name));
@@ -140,6 +154,17 @@ impl<'r> Slot<'r> {
         });
         self.loaded = Some(Loaded { scene, from, facts });
         Ok(())
+    }
+
+    /// Looks which files there are. What meshes name is looked for only where something has changed: they are opened for that, and looks are edited many times
+    /// a second.
+    fn look_at_files(&mut self, preset: &Preset, files: &Files) {
+        let named = preset.files(files);
+        let is_as_before = |file: &Stamped| *file == stamped(file.0.clone());
+        if named != self.named || !self.files.iter().all(is_as_before) {
+            self.files = preset.all_files(files).into_iter().map(stamped).collect();
+            self.named = named;
+        }
     }
 
     /// In the words of `inkstrand check`, which knows the places.
@@ -224,12 +249,8 @@ impl<'r> Slot<'r> {
 }
 
 impl From {
-    fn of(preset: &Preset, files: &Files, look: &Look) -> Self {
-        let stamp = |path: &PathBuf| {
-            let about = fs::metadata(path).ok()?;
-            Some((about.len(), about.modified().ok()?))
-        };
-        let named = preset.files(files);
+    fn of(preset: &Preset, look: &Look, files: &[Stamped]) -> Self {
+        let is_named = |path: &PathBuf| files.iter().any(|(named, _)| named == path);
         let all = &preset.sections;
         Self {
             // What else is in a preset is the look's, which is made anew.
@@ -266,13 +287,10 @@ impl From {
                 .chain(preset.layers.iter().map(|layer| [None, layer.on.clone()]))
                 .collect(),
             texts: (look.texts.iter())
-                .filter(|(path, _)| named.contains(path))
+                .filter(|(path, _)| is_named(path))
                 .map(|(path, text)| (path.clone(), text.clone()))
                 .collect(),
-            files: named
-                .into_iter()
-                .map(|path| (path.clone(), stamp(&path)))
-                .collect(),
+            files: files.to_vec(),
         }
     }
 }

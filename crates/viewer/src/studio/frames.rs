@@ -52,6 +52,9 @@ impl Studio {
         }
         if self.files.has_changed() {
             self.files_changed += 1;
+            if let Some(compare) = &mut self.compare {
+                compare.read_again(self.files_changed);
+            }
             // A base may name others.
             if let Some(documents) = &mut self.documents {
                 documents.follow_names();
@@ -129,12 +132,17 @@ impl Studio {
         }
     }
 
-    /// Watches what the look is read from, whether it could be drawn or not: somebody may mend it.
+    /// Watches what the look is read from, and another preset that it is compared with, whether it could be drawn or not: somebody may mend it.
     fn watch_files(&mut self, mut files: Vec<PathBuf>) {
         if self.is_outdated {
             // It may be a base that can't be read.
             files.extend(self.documents.iter().flat_map(Documents::bases));
         }
+        files.extend(
+            self.compare
+                .iter()
+                .filter_map(|compare| compare.path.clone()),
+        );
         self.files.watch(&files);
     }
 

@@ -241,6 +241,86 @@ fn files_that_the_preset_names_are_watched() {
     });
 }
 
+/// Materials and their pictures, in folders of their own.
+#[test]
+fn files_that_a_mesh_names_are_watched() {
+    let looks = Looks::new();
+    std::fs::create_dir_all(looks.path("paint/pictures")).unwrap();
+    let write = |name: &str, text: &str| std::fs::write(looks.path(name), text).unwrap();
+    let paint = |name: &str, shade: u8| {
+        let path = looks.path("paint/pictures").join(name);
+        image::RgbImage::from_pixel(4, 4, image::Rgb([shade; 3]))
+            .save(path)
+            .unwrap();
+    };
+    paint("a.png", 250);
+    paint("b.png", 20);
+    let material = "newmtl paint\nmap_Kd pictures/a.png\n";
+    write("paint/card.mtl", material);
+    write(
+        "card.obj",
+        "mtllib paint/card.mtl\nv -0.2 1.4 0.2\nv 0.2 1.4 0.2\nv 0 1.8 0.2\nvt 0 0\nvt 1 0\nvt 0 1\n\
+         usemtl paint\nf 1/1 2/2 3/3\n",
+    );
+    let text = LOOK.replace(
+        "head: (shape: bust),",
+        "head: (shape: bust), meshes: [(file: \"card.obj\")],",
+    );
+    write("look.ron", &text);
+    let mut harness = viewer(&looks);
+    wait_for_picture(&mut harness);
+    for (what, change) in [
+        ("another picture", &(|| paint("a.png", 120)) as &dyn Fn()),
+        ("another material", &|| {
+            write("paint/card.mtl", &material.replace("a.png", "b.png"))
+        }),
+        ("its picture", &|| paint("b.png", 200)),
+    ] {
+        let before = harness.state().studio.pixels(0).unwrap().to_vec();
+        change();
+        wait_for(&mut harness, what, |app| {
+            app.studio.is_sharp && app.studio.pixels(0).is_some_and(|pixels| pixels != before)
+        });
+    }
+    assert!(harness.state().studio.problems.is_empty());
+}
+
+#[test]
+fn another_preset_that_is_compared_with_is_watched() {
+    let looks = Looks::new();
+    std::fs::create_dir(looks.path("other")).unwrap();
+    let strands = "(version: 1, strands: [(size: 14, mirror: true, points: [(0.02, 1.619, 0), (0.058, 1.6, 0), (0.083, 1.55, 0.01)])])";
+    let other = "(version: 1, hair: (file: \"few.strands.ron\"), head: (shape: bust), layers: [(effect: \"hair.base\")])";
+    let write = |name: &str, text: &str| std::fs::write(looks.path(name), text).unwrap();
+    write("other/few.strands.ron", strands);
+    write("other/other.ron", other);
+    let mut harness = viewer(&looks);
+    wait_for_picture(&mut harness);
+    let studio = &mut harness.state_mut().studio;
+    studio.compare_with(&looks.path("other/other.ron")).unwrap();
+    wait_for(&mut harness, "both", |app| {
+        app.studio.is_sharp && app.studio.pixels(1).is_some()
+    });
+    for (what, name, text) in [
+        (
+            "other hair",
+            "other/few.strands.ron",
+            strands.replace("0.083", "0.12"),
+        ),
+        (
+            "another look",
+            "other/other.ron",
+            other.replace("layers", "clump: (size: 2), layers"),
+        ),
+    ] {
+        let before = harness.state().studio.pixels(1).unwrap().to_vec();
+        write(name, &text);
+        wait_for(&mut harness, what, |app| {
+            app.studio.is_sharp && app.studio.pixels(1).is_some_and(|pixels| pixels != before)
+        });
+    }
+}
+
 #[test]
 fn what_the_preset_builds_on_is_read_anew() {
     let looks = Looks::new();
