@@ -157,6 +157,12 @@ impl Batch {
         particle
     }
 
+    /// Whether a plane is a body's.
+    #[inline(always)]
+    pub(crate) fn is_of_body(&self, plane: usize) -> bool {
+        plane < self.count() || plane >= self.planes
+    }
+
     /// How many planes may hold particles, where bodies may give them a second one: those come last.
     pub(crate) fn planes_with_second(&self) -> usize {
         self.planes + self.count()

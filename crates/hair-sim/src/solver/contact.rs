@@ -23,8 +23,10 @@ use super::{
 /// The time in s in which a contact settles. At steps above it contact is as good as rigid.
 const SETTLE: f64 = 2e-4;
 
-/// The speed in m/s at which a strand that is found inside a body is pushed out.
+/// The speed in m/s at which a strand that is found inside a body is pushed out, and that where there are bodies beside the figure's own: what these press
+/// against a head or shoulders has no room to go to, and would be thrown.
 const PUSH_OUT: f64 = 3.0;
+const WEDGED_OUT: f64 = 0.3;
 
 /// Where friction holds a particle, that speed becomes so much less in every step, and this at the least: what sticks creeps a finite way,
 /// about one step's at [`CREEP`], and comes to rest.
@@ -37,6 +39,10 @@ const NEAR: f64 = 2e-3;
 /// A particle closer to the surface than this, in m, touches it, and one that a stage's answer leaves behind a plane by less waits
 /// for the next step, which starts with the plane: half the radius of a hair.
 const TOUCH: f64 = 2e-5;
+
+/// The pressure of the last step foretells that a particle is held which is no farther than this, in m, from its plane without it. What jams between two bodies is
+/// pressed by thousands of m/s^2, and by the next step the plane may be that of another place: held there, a lock was drawn to it by decimetres at once.
+pub(super) const REBOUND: f64 = 5e-3;
 
 /// A plane that holds a particle.
 #[derive(Clone, Copy, Debug)]
@@ -118,11 +124,12 @@ impl Contact {
         self.slip = self.slip * grip;
     }
 
-    /// Where a particle at `y` is behind the plane at `level` and was not held, in the strands that have the plane.
+    /// Where a particle at `y` is behind the plane at `level` and was not held, in the strands that have the plane: or is expected to be, no farther than `most`, in m,
+    /// before it.
     #[inline(always)]
-    pub(crate) fn is_due(&self, why: Due, y: Vec3, level: Lane) -> Mask {
+    pub(crate) fn is_due(&self, why: Due, y: Vec3, level: Lane, most: f64) -> Mask {
         let level = match why {
-            Due::Expected(d) => level + self.press * d * d,
+            Due::Expected(d) => level + (self.press * d * d).min(Lane::splat(most)),
             Due::Passed => level - Lane::splat(TOUCH),
         };
         let half = Lane::splat(0.5);

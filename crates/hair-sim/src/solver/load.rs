@@ -8,7 +8,7 @@ use crate::{
 use super::{
     batch::Batch,
     chain::Chain,
-    contact::{Contact, Due, find::Ways},
+    contact::{Contact, Due, REBOUND, find::Ways},
     link::Node,
     stage::{FreeMotion, Stage, Sum},
 };
@@ -169,7 +169,11 @@ impl Loads {
                     } else {
                         contact.end
                     };
-                    let here = contact.is_due(due, chain.y[k], level).and(among);
+                    let rebound = match batch.is_of_body(plane) {
+                        true => REBOUND,
+                        false => f64::INFINITY,
+                    };
+                    let here = contact.is_due(due, chain.y[k], level, rebound).and(among);
                     if here.any() {
                         let (mass, node) = (batch.particles[k].mass, &mut self.nodes[k]);
                         contact.hold(node, here, mass, level, stage.length, self.free_y[k]);

@@ -128,7 +128,7 @@ fn turn(rotation: DMat3) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::path::Path;
+    use super::super::{PUSH_OUT, path::Path};
     use super::*;
     use crate::{SignedDistance, pose::Pose};
     use glam::DQuat;
@@ -245,6 +245,7 @@ mod tests {
                 from,
                 to,
                 keep: 1e-3,
+                push_out: PUSH_OUT,
                 lift: 0.0,
                 leads_out: 0.0,
                 dt: 0.01,

@@ -12,7 +12,9 @@ use crate::{
 
 use super::{
     super::batch::{Batch, BatchState},
+    PUSH_OUT,
     find::{Bodies, Ways},
+    guard::Guard,
     link::{CROSSES, lowest},
     path::Path,
 };
@@ -82,6 +84,8 @@ fn strand(
     ways: &Ways,
     lane: usize,
 ) -> bool {
+    let ways_of_bodies = bodies.guards.iter().map(Guard::way);
+    let fastest = ways_of_bodies.fold(0.0, f64::max) / bodies.dt;
     let mut turned = false;
     let mut starts = [bodies.now.get(lane); 2];
     let mut start_before = bodies.before.get(lane);
@@ -126,7 +130,9 @@ fn strand(
             let shift = link.now[1] - end;
             let (y, v) = (state.y[k].get(lane), state.v[k].get(lane));
             state.y[k].set(lane, y + shift);
-            state.v[k].set(lane, v + shift / bodies.dt);
+            // What is put beside a body gains no speed by it, over the body's own.
+            let (speed, moved) = (v.length().max(fastest), v + shift / bodies.dt);
+            state.v[k].set(lane, moved.clamp_length_max(speed));
             // A link without a length has no direction.
             let directions = [old, link.now[1] - link.now[0]].map(DVec3::try_normalize);
             if let [Some(old), Some(new)] = directions {
@@ -209,6 +215,7 @@ impl Link {
                 from,
                 to,
                 keep,
+                push_out: PUSH_OUT,
                 lift: 0.0,
                 leads_out: self.leads_out[1],
                 dt: self.dt,
@@ -225,7 +232,7 @@ impl Link {
                 }
                 return;
             }
-            let Some(plane) = path.against(collider) else {
+            let Some(plane) = path.met(collider) else {
                 return;
             };
             if plane.depth > deepest.0 && (is_in || plane.normal.dot(last) < OTHER_SIDE) {
@@ -251,7 +258,6 @@ mod tests {
         params::{Natural, Params},
         pose::Pose,
         rest::RestStrand,
-        solver::contact::guard::Guard,
     };
     use glam::Vec3 as Point;
 

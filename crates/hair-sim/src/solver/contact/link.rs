@@ -124,11 +124,12 @@ impl Lack {
     pub(super) fn plane(&self, body: usize, path: &Path, collider: &Collider) -> Option<Plane> {
         let (at, normal) = self.plane.filter(|_| self.body == body)?;
         let end = collider.now.to_local(path.to);
-        Some(Plane {
+        let plane = Plane {
             at,
             normal,
             depth: (at - end).dot(normal),
-        })
+        };
+        Some(path.within_reach(plane, collider))
     }
 }
 
@@ -159,6 +160,7 @@ pub(super) fn lowest(
 
 #[cfg(test)]
 mod tests {
+    use super::super::PUSH_OUT;
     use super::*;
     use crate::pose::Pose;
 
@@ -205,6 +207,7 @@ mod tests {
             from,
             to,
             keep: 0.0,
+            push_out: PUSH_OUT,
             lift: 0.0,
             leads_out: 0.0,
             dt: 1.0 / 60.0,

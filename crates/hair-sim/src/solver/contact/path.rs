@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::collision::shape::{Collider, Shape};
 
-use super::{NEAR, PUSH_OUT, TOUCH};
+use super::{NEAR, TOUCH};
 
 /// The speed in m/s at which a particle that is nearer to a body than it keeps for its links' sake is pushed out. What a link needs grows as fast as the link
 /// turns: pushed fast, a strand that swings against a ball was thrown back as far as it came, for ever. Slower still its links would be in the body for long.
@@ -16,7 +16,9 @@ pub(super) struct Path {
     pub from: DVec3,
     pub to: DVec3,
     pub keep: f64,
-    /// How much of that is for the sake of its links, in m.
+    /// How fast it is pushed out of a body that it is in, in m/s.
+    pub push_out: f64,
+    /// How much of what it keeps is for the sake of its links, in m.
     pub lift: f64,
     /// How much farther out of a body than the root of its strand it may have to be, in m: [`LEADS_OUT`](crate::LEADS_OUT) of the hair
     /// between them.
@@ -62,6 +64,30 @@ impl Path {
     /// The plane of a body that the path meets, or comes near.
     #[inline(always)]
     pub(super) fn against(&self, collider: &Collider) -> Option<Plane> {
+        let plane = self.met(collider)?;
+        // A head's is left as it is: it is nowhere so thin that a way would lead past it.
+        Some(match collider.shape.is_sampled() {
+            true => plane,
+            false => self.within_reach(plane, collider),
+        })
+    }
+
+    /// The plane, but no farther in front of where the path begins than it is pushed out. A plane goes on beyond its body: what began behind it is beside the body or
+    /// past it, and would be fetched from there at once.
+    pub(super) fn within_reach(&self, plane: Plane, collider: &Collider) -> Plane {
+        let from = collider.before.to_local(self.from);
+        let behind = (plane.at - from).dot(plane.normal);
+        let back = (behind - self.push_out * self.dt).max(0.0);
+        Plane {
+            at: plane.at - plane.normal * back,
+            depth: plane.depth - back,
+            ..plane
+        }
+    }
+
+    /// The plane that it meets, or comes near, wherever it begins.
+    #[inline(always)]
+    pub(super) fn met(&self, collider: &Collider) -> Option<Plane> {
         let (shape, was) = (&collider.shape, collider.at_start());
         let to = collider.now.to_local(self.to);
         let end = shape.distance(to) - self.keep;
@@ -88,7 +114,7 @@ impl Path {
                 (from - first * (start - collider.grown(from)), first)
             };
             let own = start + self.lift;
-            let pushed = (own + PUSH_OUT * self.dt).min(0.0) - self.lift;
+            let pushed = (own + self.push_out * self.dt).min(0.0) - self.lift;
             let lifted = (start + LIFT_OUT * self.dt).min(0.0);
             let level = pushed.max(lifted);
             return Some(self.plane(at + normal * level, normal, to));
