@@ -5,6 +5,7 @@
     reason = "a test shows the figures that it holds"
 )]
 
+mod combed;
 mod locks;
 mod on_bodies;
 mod rates;
