@@ -468,13 +468,19 @@ impl Solver {
             .sort_unstable_by_key(|own| (own.batch, own.lane, own.particle, own.order));
     }
 
-    /// Takes note of how deep strands are in bodies as they lie in `state`: so deep they may stay there. Where it isn't asked for, that is as deep
+    /// Takes note of how deep strands are in bodies as they lie in `state`: so deep they may stay there. The first
+    /// `of_one_figure` are [parts of one figure](Surroundings::of_one_figure). Where it isn't asked for, that is as deep
     /// as they are when the first step with bodies begins, wherever roots and bodies have gone until then.
     ///
     /// # Errors
     ///
     /// When a body or the state is invalid. The state is unchanged then.
-    pub fn settle(&self, state: &mut State, colliders: &[Collider]) -> Result<(), DynamicsError> {
+    pub fn settle(
+        &self,
+        state: &mut State,
+        colliders: &[Collider],
+        of_one_figure: usize,
+    ) -> Result<(), DynamicsError> {
         let surroundings = Surroundings {
             colliders,
             ..Surroundings::default()
@@ -482,7 +488,7 @@ impl Solver {
         surroundings.check(1.0, self.len(), self.points.iter().sum())?;
         self.check_places(state)?;
         for (batch, state) in self.batches.iter().zip(&mut state.batches) {
-            settle_in(batch, state, colliders);
+            settle_in(batch, state, colliders, of_one_figure);
             state.skin_known = true;
         }
         Ok(())

@@ -37,7 +37,8 @@ pub trait StrandSolver {
     /// When the poses or the state are invalid. The state is unchanged then.
     fn teleport(&self, state: &mut Self::State, to: Roots) -> Result<(), DynamicsError>;
 
-    /// Takes note of how deep strands are in bodies as they lie in `state`: so deep they may stay there. Solvers that let none stay don't.
+    /// Takes note of how deep strands are in bodies as they lie in `state`: so deep they may stay there. The first `of_one_figure` are
+    /// [parts of one figure](Surroundings::of_one_figure). Solvers that let none stay don't.
     ///
     /// # Errors
     ///
@@ -46,6 +47,7 @@ pub trait StrandSolver {
         &self,
         _state: &mut Self::State,
         _colliders: &[Collider],
+        _of_one_figure: usize,
     ) -> Result<(), DynamicsError> {
         Ok(())
     }
@@ -81,8 +83,13 @@ impl StrandSolver for Solver {
         Self::teleport(self, state, to)
     }
 
-    fn settle(&self, state: &mut State, colliders: &[Collider]) -> Result<(), DynamicsError> {
-        Self::settle(self, state, colliders)
+    fn settle(
+        &self,
+        state: &mut State,
+        colliders: &[Collider],
+        of_one_figure: usize,
+    ) -> Result<(), DynamicsError> {
+        Self::settle(self, state, colliders, of_one_figure)
     }
 
     fn points(&self, state: &State, strand: usize) -> impl ExactSizeIterator<Item = DVec3> {

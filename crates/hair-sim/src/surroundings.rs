@@ -98,7 +98,8 @@ pub struct Surroundings<'a> {
     /// What hair cannot enter.
     pub colliders: &'a [Collider<'a>],
     /// How many of these, the first ones, are parts of one figure that leave hair room between them, as a head and its shoulders. What lies between any others
-    /// is kept out of both, which takes longer. 0 where nothing is known of them.
+    /// is kept out of both, which takes longer, and what is found in a body is put out more slowly. Of meshes after these hair that grows under one, as its root is in it, isn't kept
+    /// out until it leaves it, as under a hat. 0 where nothing is known of them: then the first is taken for the figure's.
     pub of_one_figure: usize,
     /// Places in style space for the points of all strands, in their order, to which [`Params::goal`](crate::Params::goal) pulls; `None`
     /// is the style itself.

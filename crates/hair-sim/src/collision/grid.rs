@@ -87,7 +87,8 @@ impl SignedDistance {
         Self::by(Inside::Wound, points, &[triangles], cell)
     }
 
-    /// The same of several meshes that may overlap and lie in each other, as one body: the least of their distances, so that inside no wall of another is near.
+    /// The same of several meshes that may overlap and lie in each other, as one body: the least of their distances, so that inside no wall of another is near. Where they
+    /// overlap that is the depth in the one that it is deepest in, which is no more than that in all of them together.
     ///
     /// # Errors
     ///

@@ -23,8 +23,8 @@ use super::{
 /// The time in s in which a contact settles. At steps above it contact is as good as rigid.
 const SETTLE: f64 = 2e-4;
 
-/// The speed in m/s at which a strand that is found inside a body is pushed out, and that where there are bodies beside the figure's own: what these press
-/// against a head or shoulders has no room to go to, and would be thrown.
+/// The speed in m/s at which a strand that is found inside a body is pushed out, and that where hair may be pressed between two, unless the body is faster: what is
+/// pressed against a head or shoulders has no room to go to, and would be thrown.
 const PUSH_OUT: f64 = 3.0;
 const WEDGED_OUT: f64 = 0.3;
 

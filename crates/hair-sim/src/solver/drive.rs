@@ -276,11 +276,12 @@ pub(crate) fn prepare<T: Number>(
     loads.on_exact = Mask::NONE;
     loads.have_exact = Mask::NONE;
     if !drive.surroundings.colliders.is_empty() {
+        let bodies = drive.bodies(state.root, root.root);
         if !state.skin_known {
-            find::settle_in(batch, state, drive.surroundings.colliders);
+            let of_figure = bodies.of_one_figure;
+            find::settle_in(batch, state, bodies.colliders, of_figure);
             state.skin_known = true;
         }
-        let bodies = drive.bodies(state.root, root.root);
         let room = if bodies.may_wedge() {
             batch.planes_with_second()
         } else {

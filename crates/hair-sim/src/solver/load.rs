@@ -169,7 +169,7 @@ impl Loads {
                     } else {
                         contact.end
                     };
-                    let rebound = match batch.is_of_body(plane) {
+                    let rebound = match self.have_exact.any() && batch.is_of_body(plane) {
                         true => REBOUND,
                         false => f64::INFINITY,
                     };

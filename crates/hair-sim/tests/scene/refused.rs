@@ -98,12 +98,12 @@ fn strands_settle_in_a_state_of_their_own_among_bodies_that_are_valid() {
     };
     let before: State = own.clone();
     assert_eq!(
-        solver.settle(&mut other, &ball(0.1)),
+        solver.settle(&mut other, &ball(0.1), 0),
         Err(DynamicsError::State)
     );
-    assert!(solver.settle(&mut own, &ball(f64::NAN)).is_err());
+    assert!(solver.settle(&mut own, &ball(f64::NAN), 0).is_err());
     assert_eq!(own, before);
-    solver.settle(&mut own, &ball(0.1)).unwrap();
+    solver.settle(&mut own, &ball(0.1), 0).unwrap();
     assert_ne!(own, before);
 }
 

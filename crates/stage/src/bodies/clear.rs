@@ -16,6 +16,8 @@ const NEAR: f32 = 1e-4;
 const ENOUGH: f32 = 5e-5;
 /// The next points aren't taken along by less than this, m.
 const LEAST: f32 = 1e-5;
+/// How far out of a mesh that it grows under hair may sway, as the solver has it, m.
+const WORN_LOOSELY: f32 = 1e-2;
 /// What single precision may change a distance by, m.
 const ROUNDING: f32 = 1e-6;
 
@@ -91,20 +93,26 @@ fn take_along<'p>(points: impl IntoIterator<Item = &'p mut Vec3>, by: Vec3, shar
 }
 
 /// How far the places of a strand's links are from bodies, for each point those of the link that ends there: `most` m where they are farther away.
-/// The first point has no link.
-pub(crate) fn gaps(points: &[Vec3], bodies: &[Placed], most: f32) -> Vec<Gap> {
+/// The first point has no link. What grows under a body that is [worn](followed) isn't asked how far it is from that.
+pub(crate) fn gaps(
+    points: &[Vec3],
+    (bodies, of_figure): (&[Placed], usize),
+    most: f32,
+) -> Vec<Gap> {
     let mut gaps = vec![[most; PLACES.len()]; points.len()];
-    let mut followed = followed(bodies, bodies.len());
+    let mut followed = followed(bodies, of_figure);
     let mut near = Near::new(&mut followed);
+    near.root(points, 0);
     near.start(points, 0);
     for i in 1..points.len() {
         if near.is_clear(points, i, most) {
             continue;
         }
-        for (t, gap) in PLACES.into_iter().zip(&mut gaps[i]) {
-            let place = on_path(points, i, t);
-            for (body, _) in near.bodies.iter().filter(|(_, known)| known.may_meet) {
-                *gap = gap.min(body.distance(place));
+        for (place, gap) in gaps[i].iter_mut().enumerate() {
+            let at = on_path(points, i, PLACES[place]);
+            let asked = |known: &Known| known.may_meet && !known.is_under(i, place);
+            for (body, _) in near.bodies.iter().filter(|(_, known)| asked(known)) {
+                *gap = gap.min(body.distance(at));
             }
         }
     }
@@ -155,6 +163,13 @@ pub(crate) struct Known {
     leaves: usize,
 }
 
+impl Known {
+    /// Whether hair is under it at a place of the link that ends at point `to`. That by which it leaves it goes through its surface.
+    fn is_under(&self, to: usize, place: usize) -> bool {
+        to < self.leaves || to == self.leaves && place > 0
+    }
+}
+
 impl<'a, 'b> Near<'a, 'b> {
     fn new(bodies: &'b mut [Followed<'a>]) -> Self {
         Self {
@@ -170,10 +185,10 @@ impl<'a, 'b> Near<'a, 'b> {
     fn root(&mut self, points: &[Vec3], at: usize) {
         let mut is_in = false;
         for (body, known) in &mut *self.bodies {
-            let is_inside = |at: &Vec3| body.distance(*at) < 0.0;
             known.leaves = 0;
-            if known.may_be_worn && is_inside(&points[at]) {
-                let behind = points[at + 1..].iter().position(|p| !is_inside(p));
+            if known.may_be_worn && body.distance(points[at]) < 0.0 {
+                let is_out = |at: &Vec3| body.distance(*at) >= WORN_LOOSELY;
+                let behind = points[at + 1..].iter().position(is_out);
                 known.leaves = behind.map_or(points.len(), |first| at + 1 + first);
             }
             // Most roots are in the mesh of their head.
@@ -251,8 +266,7 @@ impl<'a, 'b> Near<'a, 'b> {
         let led = led.map(|led| led[0] + (led[1] - led[0]) * PLACES[place]);
         for (body, known) in &mut *self.bodies {
             let gap = led.map_or(gap, |led| gap.min(known.root + led));
-            // The link by which it leaves what it is under goes through its surface.
-            if to < known.leaves || to == known.leaves && place > 0 {
+            if known.is_under(to, place) {
                 continue;
             }
             // No more than the distance.
@@ -403,7 +417,7 @@ mod tests {
             let side = way.any_orthogonal_vector();
             let at = |i: u32| Vec3::from(from) + way * i as f32 + side * (0.6 * i as f32).sin();
             let points: Vec<Vec3> = (0..12).map(at).collect();
-            let own = gaps(&points, &bodies, 1e-3);
+            let own = gaps(&points, (&bodies, bodies.len()), 1e-3);
             for i in 1..points.len() {
                 for (t, gap) in PLACES.into_iter().zip(own[i]) {
                     let place = on_path(&points, i, t);

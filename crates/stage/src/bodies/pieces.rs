@@ -7,6 +7,8 @@ use std::collections::HashSet;
 
 /// Into how many meshes one is parted at most, as each takes as long as all of them together would: what is left goes into the last.
 const MOST_PARTS: usize = 16;
+/// Of more pieces than this each would be held against too many others: they stay one part, as do those of a mail's rings.
+const MOST_PIECES: usize = 1000;
 
 type Triangle = [u32; 3];
 
@@ -15,7 +17,10 @@ type Triangle = [u32; 3];
 ///
 /// What is not closed by itself, as it has a hole or edges of more than two triangles, is one part.
 pub(super) fn parted(mesh: &Welded) -> Vec<Vec<Triangle>> {
-    let (closed, rest) = closed_pieces(mesh);
+    let (mut closed, mut rest) = closed_pieces(mesh);
+    if closed.len() > MOST_PIECES {
+        (closed, rest) = (Vec::new(), mesh.triangles.clone());
+    }
     let mut parts: Vec<(Vec<Triangle>, Vec<[Vec3; 2]>)> = Vec::new();
     for piece in closed {
         let bounds = bounds(&mesh.positions, &piece);

@@ -367,7 +367,8 @@ impl Dynamics {
         let first = self.pose_at(start, driver);
         let styled = self.styled(driver);
         let colliders = (self.bodies).colliders(driver.script, [start; 2], [&styled; 2]);
-        self.strands.restart((styled.head, &colliders), first)?;
+        let of_figure = self.of_figure();
+        (self.strands).restart((styled.head, &colliders, of_figure), first)?;
         self.ties.restart();
         self.is_asleep = false;
         self.gaps = self.gaps_at_start((styled.head, first), &colliders);
@@ -388,7 +389,7 @@ impl Dynamics {
         }
         let posture = self.posture_at(self.shown, driver);
         let bodies = self.bodies_at(self.shown, &posture, driver);
-        let start = || followed(&bodies, self.bodies.of_figure());
+        let start = || followed(&bodies, self.of_figure());
         let keep_out = |bodies: &mut Vec<Followed>, first: usize, points: &mut [Vec3]| {
             let gap = |i| self.gaps[first + i];
             clear(points, 1, bodies, GAP_M, gap);
@@ -410,7 +411,7 @@ impl Dynamics {
     pub fn keep_out(&self, driver: Driver, time: f64, points: &mut [Vec3]) -> Vec<Range<usize>> {
         let posture = self.posture_at(time, driver);
         let bodies = self.bodies_at(time, &posture, driver);
-        let mut bodies = followed(&bodies, self.bodies.of_figure());
+        let mut bodies = followed(&bodies, self.of_figure());
         let parts = self.guides.iter().map(|part| &part.points);
         let parts = parts.chain(self.carried.ranges()).filter(|range| {
             let gap = |i| self.gaps[range.start + i];
@@ -451,13 +452,24 @@ impl Dynamics {
         let parts = self.guides.iter().map(|part| &part.points);
         let parts: Vec<&Range<usize>> = parts.chain(self.carried.ranges()).collect();
         let found: Vec<Vec<Gap>> = (parts.par_iter())
-            .map(|range| gaps(&points[(*range).clone()], &bodies, GAP_M))
+            .map(|range| {
+                gaps(
+                    &points[(*range).clone()],
+                    (&bodies, self.of_figure()),
+                    GAP_M,
+                )
+            })
             .collect();
         let mut all = vec![[GAP_M; 4]; points.len()];
         for (range, found) in parts.iter().zip(found) {
             all[(*range).clone()].copy_from_slice(&found);
         }
         all
+    }
+
+    /// How many bodies, the first ones, the solver takes for the figure's.
+    fn of_figure(&self) -> usize {
+        self.bodies.of_figure().max(1)
     }
 
     /// All bodies at a time (seconds), at which the figure stands so.

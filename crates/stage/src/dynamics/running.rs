@@ -7,7 +7,12 @@ use std::sync::OnceLock;
 /// Strands in motion.
 pub(super) trait Running: Send + Sync {
     /// Puts all back to the start, on a head in the pose `first`. As deep as hair is in bodies where the head and these are as it is `styled`, it may stay.
-    fn restart(&mut self, styled: (Pose, &[Collider]), first: Pose) -> Result<(), DynamicsError>;
+    /// Of these bodies so many, the first ones, are the figure's.
+    fn restart(
+        &mut self,
+        styled: (Pose, &[Collider], usize),
+        first: Pose,
+    ) -> Result<(), DynamicsError>;
     /// Advances by `dt` seconds, on a head that is first put into the pose `from` at once, where there is one: strands are carried along.
     fn step(
         &mut self,
@@ -70,13 +75,13 @@ where
 {
     fn restart(
         &mut self,
-        (styled, colliders): (Pose, &[Collider]),
+        (styled, colliders, of_figure): (Pose, &[Collider], usize),
         first: Pose,
     ) -> Result<(), DynamicsError> {
         self.is_ahead = false;
         self.state.clone_from(&self.start);
         (self.solver).teleport(&mut self.state, Roots::Head(styled))?;
-        self.solver.settle(&mut self.state, colliders)?;
+        self.solver.settle(&mut self.state, colliders, of_figure)?;
         if first == styled {
             return Ok(());
         }

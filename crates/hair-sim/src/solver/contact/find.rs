@@ -23,6 +23,9 @@ use super::{
 const CUTS: f64 = 2.5e-4;
 const CLEAR: f64 = 5e-4;
 
+/// What grows under a mesh is under it for as long as no particle from the root on is farther out of it than this, in m: what sways out of a hat comes back.
+const WORN_LOOSELY: f64 = 1e-2;
+
 /// The ways of a batch's particles through the world in a step, as far as planes were found by them.
 #[derive(Clone, Debug)]
 pub(crate) struct Ways {
@@ -59,18 +62,16 @@ impl Ways {
 
     /// Takes note of what is under meshes, as hair is under a hat: it isn't pushed through it. What is of the figure, whose skin roots are in, keeps hair out of all of it.
     fn look_under(&mut self, batch: &Batch, bodies: &Bodies, lanes: Mask) {
-        let inside =
-            |body: &Collider, at: DVec3| body.at_start().distance(body.before.to_local(at)) < 0.0;
         self.under.clear();
-        for (index, (body, guard)) in bodies.colliders.iter().zip(bodies.guards).enumerate() {
-            let is_of_figure = index < bodies.of_one_figure.max(1);
+        for (index, body) in bodies.colliders.iter().enumerate() {
+            let may_be_worn = may_be_worn(index, body, bodies.of_one_figure);
             self.under.push(std::array::from_fn(|lane| {
-                let root = bodies.before.get(lane);
-                if is_of_figure || guard.has_links || !lanes.get(lane) || !inside(body, root) {
+                let holds = |at: DVec3, up_to: f64| at_start(body, at).1 < up_to;
+                if !may_be_worn || !lanes.get(lane) || !holds(bodies.before.get(lane), 0.0) {
                     return 0;
                 }
                 let mut own = self.from[..batch.counts[lane]].iter();
-                let first_out = own.position(|from| !inside(body, from.get(lane)));
+                let first_out = own.position(|from| !holds(from.get(lane), WORN_LOOSELY));
                 first_out.unwrap_or(batch.counts[lane])
             }));
         }
@@ -115,6 +116,11 @@ impl Bodies<'_> {
         self.have_links() || self.guards.len() > self.of_one_figure.max(1)
     }
 
+    /// How fast what is found in a body is put out of it where two of them may press hair between them, in m/s.
+    fn push_out(&self, index: usize) -> f64 {
+        WEDGED_OUT.max(self.guards[index].way() / self.dt)
+    }
+
     /// A plane of a body as a strand's surface.
     #[inline(always)]
     fn surface(&self, lane: usize, collider: &Collider, plane: &Plane) -> Surface {
@@ -132,16 +138,40 @@ impl Bodies<'_> {
     }
 }
 
-/// The depth at which every particle of a strand may stay: that of the style, where it or a link beside it starts inside a body.
-pub(crate) fn settle_in(batch: &Batch, state: &mut BatchState, colliders: &[Collider]) {
+/// Whether a body is a mesh that hair may grow under: none of the figure's, whose skin roots are in.
+fn may_be_worn(index: usize, body: &Collider, of_one_figure: usize) -> bool {
+    index >= of_one_figure.max(1) && body.shape.is_sampled()
+}
+
+/// A place in a body's space when the step starts, and its distance.
+fn at_start(body: &Collider, at: DVec3) -> (DVec3, f64) {
+    let to = body.before.to_local(at);
+    (to, body.at_start().distance(to))
+}
+
+/// The depth at which every particle of a strand may stay: that of the style, where it or a link beside it starts inside a body, but one that it grows under.
+pub(crate) fn settle_in(
+    batch: &Batch,
+    state: &mut BatchState,
+    colliders: &[Collider],
+    of_one_figure: usize,
+) {
     for lane in 0..LANES {
+        let root = state.root.get(lane);
+        let worn = colliders.iter().enumerate().map(|(index, body)| {
+            may_be_worn(index, body, of_one_figure) && at_start(body, root).1 < 0.0
+        });
+        let mut is_under: Vec<bool> = worn.collect();
         let mut before = None;
         for k in 0..batch.count() {
-            let at = state.root.get(lane) + state.y[k].get(lane);
+            let at = root + state.y[k].get(lane);
             let (mut own, mut between) = (0.0_f64, 0.0_f64);
-            for collider in colliders {
-                let (shape, to) = (collider.at_start(), collider.before.to_local(at));
-                let distance = shape.distance(to);
+            for (collider, is_under) in colliders.iter().zip(&mut is_under) {
+                let (shape, (to, distance)) = (collider.at_start(), at_start(collider, at));
+                *is_under &= distance < WORN_LOOSELY;
+                if *is_under {
+                    continue;
+                }
                 own = own.min(distance - batch.thickness[lane]);
                 // The root's link is as deep as the root is.
                 let is_link = k < batch.counts[lane] && !shape.is_sampled();
@@ -468,7 +498,10 @@ impl Looked<'_> {
                 continue;
             }
             let lift = if index == of { *last_lift } else { 0.0 };
-            let path = path.led_out(root);
+            let path = Path {
+                push_out: self.bodies.push_out(index),
+                ..path.led_out(root)
+            };
             let lifted = Path {
                 keep: path.keep + lift,
                 lift,

@@ -86,6 +86,7 @@ fn strand(
 ) -> bool {
     let ways_of_bodies = bodies.guards.iter().map(Guard::way);
     let fastest = ways_of_bodies.fold(0.0, f64::max) / bodies.dt;
+    let of_root = (bodies.now.get(lane) - bodies.before.get(lane)) / bodies.dt;
     let mut turned = false;
     let mut starts = [bodies.now.get(lane); 2];
     let mut start_before = bodies.before.get(lane);
@@ -130,9 +131,11 @@ fn strand(
             let shift = link.now[1] - end;
             let (y, v) = (state.y[k].get(lane), state.v[k].get(lane));
             state.y[k].set(lane, y + shift);
-            // What is put beside a body gains no speed by it, over the body's own.
-            let (speed, moved) = (v.length().max(fastest), v + shift / bodies.dt);
-            state.v[k].set(lane, moved.clamp_length_max(speed));
+            // What is put beside a body gains no speed in the world by it, over that of the fastest body.
+            let (speed, moved) = (v + of_root, v + of_root + shift / bodies.dt);
+            let most = speed.length().max(fastest);
+            let moved = moved.clamp_length_max(most) - of_root;
+            state.v[k].set(lane, moved);
             // A link without a length has no direction.
             let directions = [old, link.now[1] - link.now[0]].map(DVec3::try_normalize);
             if let [Some(old), Some(new)] = directions {

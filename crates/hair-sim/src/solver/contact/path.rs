@@ -65,7 +65,7 @@ impl Path {
     #[inline(always)]
     pub(super) fn against(&self, collider: &Collider) -> Option<Plane> {
         let plane = self.met(collider)?;
-        // A head's is left as it is: it is nowhere so thin that a way would lead past it.
+        // A mesh's is left as it is: heads and shoulders are nowhere so thin that a way would lead past them, and keep their bits.
         Some(match collider.shape.is_sampled() {
             true => plane,
             false => self.within_reach(plane, collider),
@@ -77,7 +77,8 @@ impl Path {
     pub(super) fn within_reach(&self, plane: Plane, collider: &Collider) -> Plane {
         let from = collider.before.to_local(self.from);
         let behind = (plane.at - from).dot(plane.normal);
-        let back = (behind - self.push_out * self.dt).max(0.0);
+        let comes = self.push_out * self.dt + collider.grown(from).max(0.0);
+        let back = (behind - comes).max(0.0);
         Plane {
             at: plane.at - plane.normal * back,
             depth: plane.depth - back,
