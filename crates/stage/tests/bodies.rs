@@ -282,7 +282,7 @@ fn cube(half: [f32; 3], at: [f32; 3]) -> String {
     text
 }
 
-/// A closed hat, in which roots lie, isn't pushed through by what grows under it: that leaves it below, as it would without it, and keeps out of it from there on.
+/// A closed hat, in which roots lie, isn't pushed through by what grows under it: after a nod that hangs out below as it does without a hat.
 #[test]
 fn hair_under_a_hat_stays_there() {
     let style = "(version: 1, zones: [(name: \"cap\", roots: whorl, tips: hairline(-180, 180), count: 16, hang: 0.3), \
@@ -304,23 +304,25 @@ fn hair_under_a_hat_stays_there() {
     let hat = given.scene().unwrap();
     let [mut with, mut without] = [Motion::new(), Motion::new()];
     let (mut swing, mut at_rest) = (0.0_f32, 0.0_f32);
-    let styled = points(&bare, &mut Motion::new(), 0.0);
+    let mut last = points(&bare, &mut without, 0.0);
     for frame in 0..=96 {
         let time = frame as f32 / 24.0;
         let with = points(&hat, &mut with, time);
-        let without = points(&bare, &mut without, time);
+        let now = points(&bare, &mut without, time);
         let farthest = |from: &[Vec3]| {
-            let apart = with.iter().zip(from).map(|(a, b)| a.distance(*b));
+            let apart = now.iter().zip(from).map(|(a, b)| a.distance(*b));
             apart.fold(0.0, f32::max)
         };
-        swing = swing.max(farthest(&styled));
-        at_rest = farthest(&without);
+        // In a frame, head and all.
+        swing = swing.max(farthest(&last));
+        at_rest = farthest(&with);
+        last = now;
     }
     println!(
-        "hair under a hat swings by {swing:.3} m, and comes to rest within {at_rest:.4} m of where it does without it"
+        "hair that goes by up to {swing:.3} m a frame without a hat comes to rest under one within {at_rest:.4} m of where it does without"
     );
-    // What hangs out of it keeps a little below.
-    assert!(swing > 0.05, "{swing}");
+    assert!(swing > 0.01, "{swing}");
+    // Where it leaves the hat it keeps a little from it.
     assert!(at_rest < 0.01, "{at_rest}");
 }
 

@@ -129,6 +129,7 @@ impl Contact {
     #[inline(always)]
     pub(crate) fn is_due(&self, why: Due, y: Vec3, level: Lane, most: f64) -> Mask {
         let level = match why {
+            Due::Expected(d) if most.is_infinite() => level + self.press * d * d,
             Due::Expected(d) => level + (self.press * d * d).min(Lane::splat(most)),
             Due::Passed => level - Lane::splat(TOUCH),
         };

@@ -162,6 +162,7 @@ impl Loads {
             #[inline(always)]
             move || {
                 let mut new = Mask::NONE;
+                let has_exact = self.have_exact.any();
                 for &plane in &self.touched {
                     let (contact, k) = (&mut self.contacts[plane], batch.held_by(plane));
                     let level = if stage.is_mid {
@@ -169,7 +170,7 @@ impl Loads {
                     } else {
                         contact.end
                     };
-                    let rebound = match self.have_exact.any() && batch.is_of_body(plane) {
+                    let rebound = match has_exact && batch.is_of_body(plane) {
                         true => REBOUND,
                         false => f64::INFINITY,
                     };

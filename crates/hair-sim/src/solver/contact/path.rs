@@ -66,10 +66,10 @@ impl Path {
     pub(super) fn against(&self, collider: &Collider) -> Option<Plane> {
         let plane = self.met(collider)?;
         // A mesh's is left as it is: heads and shoulders are nowhere so thin that a way would lead past them, and keep their bits.
-        Some(match collider.shape.is_sampled() {
-            true => plane,
-            false => self.within_reach(plane, collider),
-        })
+        if collider.shape.is_sampled() {
+            return Some(plane);
+        }
+        Some(self.within_reach(plane, collider))
     }
 
     /// The plane, but no farther in front of where the path begins than it is pushed out. A plane goes on beyond its body: what began behind it is beside the body or
