@@ -221,6 +221,22 @@ pub(crate) struct Surface {
     pub flow: DVec3,
 }
 
+impl Surface {
+    /// Leaves a particle that is at `y` from the root as much room as another that is against it needs: where there is none, as under an arm that lies on a back, hair
+    /// goes into this body, and not into the other, or off to their sides.
+    pub(crate) fn give_way(&mut self, other: &Self, y: DVec3) {
+        let against = -self.normal.dot(other.normal);
+        if against <= 0.0 {
+            return;
+        }
+        for (own, other_level) in [(&mut self.mid, other.mid), (&mut self.end, other.end)] {
+            let out = (other_level - other.normal.dot(y)).max(0.0);
+            let lack = *own - self.normal.dot(y + other.normal * out);
+            *own -= against * against * lack.max(0.0);
+        }
+    }
+}
+
 /// When a plane begins to hold a particle.
 #[derive(Clone, Copy)]
 pub(crate) enum Due {

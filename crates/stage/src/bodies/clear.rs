@@ -126,6 +126,7 @@ pub(crate) type Followed<'a> = (&'a Placed<'a>, Known);
 pub(crate) fn followed<'a>(bodies: &'a [Placed<'a>], of_figure: usize) -> Vec<Followed<'a>> {
     let known = |(index, body): (usize, &'a Placed<'a>)| {
         let known = Known {
+            is_of_figure: index < of_figure,
             may_be_worn: index >= of_figure && body.is_sampled(),
             ..Known::default()
         };
@@ -157,6 +158,7 @@ pub(crate) struct Known {
     may_meet: bool,
     /// At the last point that is held, where that is in a ball or a capsule; else infinity.
     root: f32,
+    is_of_figure: bool,
     /// Whether it is a mesh that isn't the figure's.
     may_be_worn: bool,
     /// The first point behind the last one that is held that is out of it, where that one is in it as under a hat; else 0.
@@ -250,8 +252,8 @@ impl<'a, 'b> Near<'a, 'b> {
         is_clear
     }
 
-    /// What takes a place of the link that was gone on to last out of the body that it is deepest in, to `gap` m from it; nothing where it is out of all.
-    /// What `moves` may have come near others than it could meet before.
+    /// What takes a place of the link that was gone on to last out of the body that it is deepest in, to `gap` m from it; nothing where it is out of all. Where the figure leaves it no room there, as under an arm that lies on a back, no farther
+    /// than to that, and where another body does, to the middle between the two: pushed out of one and the other in turns it would come out at their sides, now here, now there. What `moves` may have come near others than it could meet before.
     fn push(
         &mut self,
         points: &[Vec3],
@@ -260,19 +262,18 @@ impl<'a, 'b> Near<'a, 'b> {
         (gap, moves): (f32, bool),
     ) -> Option<Vec3> {
         let (link, bulge) = (self.link, self.bulge);
-        let mut deepest: Option<(f32, &Placed)> = None;
+        let mut deepest: Option<(f32, usize, &Placed)> = None;
         let mut at = None;
         let led = self.led.get(to - 1..=to);
         let led = led.map(|led| led[0] + (led[1] - led[0]) * PLACES[place]);
-        for (body, known) in &mut *self.bodies {
-            let gap = led.map_or(gap, |led| gap.min(known.root + led));
-            if known.is_under(to, place) {
+        for (index, (body, known)) in self.bodies.iter_mut().enumerate() {
+            if !(known.may_meet || moves) || known.is_under(to, place) {
                 continue;
             }
+            let gap = led.map_or(gap, |led| gap.min(known.root + led));
             // No more than the distance.
             let least = match place {
                 _ if moves => f32::NEG_INFINITY,
-                _ if !known.may_meet => continue,
                 0 => known.distance,
                 1 => known.middle,
                 _ => {
@@ -292,13 +293,28 @@ impl<'a, 'b> Near<'a, 'b> {
                 known.middle = distance;
             }
             let lack = gap - distance;
-            if lack > 0.0 && deepest.is_none_or(|(other, _)| lack > other) {
-                deepest = Some((lack, *body));
+            if lack > 0.0 && deepest.is_none_or(|(other, ..)| lack > other) {
+                deepest = Some((lack, index, *body));
             }
         }
-        let (lack, body) = deepest?;
+        let (lack, index, body) = deepest?;
         let at = at.unwrap_or_else(|| on_path(points, to, PLACES[place]));
-        Some(body.outwards(at) * lack)
+        let out = body.outwards(at);
+        let mut way = lack;
+        let is_of_figure = self.bodies[index].1.is_of_figure;
+        for (other, known) in self.bodies.iter().filter(|_| !is_of_figure) {
+            let room = other.distance(at) - gap;
+            if room >= lack || known.is_under(to, place) {
+                continue;
+            }
+            let towards = -out.dot(other.outwards(at));
+            if towards > 0.0 {
+                let all = room / towards;
+                let way_here = if known.is_of_figure { all } else { 0.5 * (lack + all) };
+                way = way.min(way_here).max(0.0);
+            }
+        }
+        (way > 0.0).then(|| out * way)
     }
 }
 

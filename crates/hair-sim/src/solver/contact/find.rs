@@ -467,7 +467,7 @@ impl Looked<'_> {
     }
 
     /// The planes of particle `k`, between links that lack this, where `last_lift` is by how much it was farther from a body than it would be alone, and `near` the bodies that have any: that which
-    /// it is deepest behind, and the one of another body. Held by one alone, what lies between two bodies would be thrown from one to the other for ever.
+    /// it is deepest behind, and the one of another body. Held by one alone, what lies between two bodies would be thrown from one to the other for ever. The figure's own keeps what it holds.
     fn particle(
         &self,
         k: usize,
@@ -476,7 +476,7 @@ impl Looked<'_> {
         (last_lift, near): (&mut f64, &mut Near),
     ) -> [Option<Surface>; 2] {
         let path = self.path(k, lane);
-        let [mut best, mut second]: [Option<(&Collider, Plane)>; 2] = [None, None];
+        let [mut best, mut second]: [Option<(usize, Plane)>; 2] = [None, None];
         let (mut need, mut depth, mut of) = (0.0, f64::NEG_INFINITY, 0);
         for (lack, end) in links.iter().zip([1, 0]) {
             let Some(lack) = lack else { continue };
@@ -520,12 +520,25 @@ impl Looked<'_> {
                 than.as_ref().is_none_or(|(_, b)| plane.depth > b.depth)
             };
             if is_deeper(&best) {
-                second = best.replace((collider, plane));
+                second = best.replace((index, plane));
             } else if is_deeper(&second) {
-                second = Some((collider, plane));
+                second = Some((index, plane));
             }
         }
-        [best, second]
-            .map(|found| found.map(|(collider, plane)| self.bodies.surface(lane, collider, &plane)))
+        let bodies = self.bodies;
+        let is_of_figure = [&best, &second]
+            .map(|found| found.as_ref().is_some_and(|(index, _)| *index < bodies.of_one_figure));
+        let mut surfaces = [best, second].map(|found| {
+            found.map(|(index, plane)| bodies.surface(lane, &bodies.colliders[index], &plane))
+        });
+        if let [Some(best), Some(second)] = &mut surfaces {
+            let y = path.from - bodies.before.get(lane);
+            match is_of_figure {
+                [true, false] => second.give_way(best, y),
+                [false, true] => best.give_way(second, y),
+                _ => {}
+            }
+        }
+        surfaces
     }
 }

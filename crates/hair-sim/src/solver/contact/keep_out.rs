@@ -12,7 +12,7 @@ use crate::{
 
 use super::{
     super::batch::{Batch, BatchState},
-    PUSH_OUT,
+    PUSH_OUT, WEDGED_OUT,
     find::{Bodies, Ways},
     guard::Guard,
     link::{CROSSES, lowest},
@@ -109,6 +109,7 @@ fn strand(
                 _ => LEADS_OUT * batch.along[k + end - 1][lane],
             }),
             length,
+            most: (fastest + WEDGED_OUT) * bodies.dt,
             dt: bodies.dt,
         };
         let colliders = || ways.of_root(bodies.colliders, lane);
@@ -120,7 +121,9 @@ fn strand(
         }
         let is_near = ways.near[k].get(lane) || k > 0 && ways.near[k - 1].get(lane);
         let is_link = k < batch.counts[lane];
-        if is_link && (turned || is_near) && link.turn_out(colliders) {
+        let ways = [0, 1].map(|end| link.now[end].distance(link.before[end]));
+        link.most += ways[0].max(ways[1]);
+        if is_link && (turned || is_near) && link.turn_out(colliders, bodies.of_one_figure) {
             turned = true;
             // What lies on a body would fall into it again in the next step.
             let last = &mut state.lifts[k][lane];
@@ -157,6 +160,8 @@ struct Link {
     /// How much farther out of a body than the root of the strand they may have to be, in m.
     leads_out: [f64; 2],
     length: f64,
+    /// How far its end may be moved, in m.
+    most: f64,
     dt: f64,
 }
 
@@ -166,11 +171,12 @@ impl Link {
         self.keep[end].min(root + self.leads_out[end])
     }
 
-    /// Turns it about its start until it is out of all bodies, in which the strand's root is so deep each. Returns whether it was in one.
-    fn turn_out<'a: 'b, 'b, I>(&mut self, colliders: impl Fn() -> I) -> bool
+    /// Turns it about its start until it is out of all bodies, in which the strand's root is so deep each, but not into the first ones, the figure's. Returns whether it was in one.
+    fn turn_out<'a: 'b, 'b, I>(&mut self, colliders: impl Fn() -> I, of_figure: usize) -> bool
     where
         I: Iterator<Item = (&'b Collider<'a>, f64)>,
     {
+        let end = self.now[1];
         for turn in 0..MOST_TURNS {
             let most = if turn == 0 { DEEP } else { OUT };
             let mut deepest = (most, 1.0, DVec3::ZERO);
@@ -178,13 +184,35 @@ impl Link {
                 self.look(body, turn < BY_WAYS, &mut deepest);
             }
             let (depth, share, normal) = deepest;
-            if normal == DVec3::ZERO {
+            let depth = match normal == DVec3::ZERO {
+                true => 0.0,
+                false => self.as_far_as(depth, (share, normal), colliders().take(of_figure)),
+            };
+            if depth <= most {
                 return turn > 0;
             }
-            let way = self.now[1] - self.now[0] + normal * (depth / share.max(LEAST_SHARE));
-            self.now[1] = self.now[0] + way.normalize_or(normal) * self.length;
+            let to = self.now[1] + normal * (depth / share.max(LEAST_SHARE));
+            // What went in goes back out as far, and what was in before is pushed out.
+            let to = end + (to - end).clamp_length_max(self.most);
+            self.now[1] = self.now[0] + (to - self.now[0]).normalize_or(normal) * self.length;
         }
         true
+    }
+
+    /// How far a place of it, which is so deep in a body, can go out of it before it meets one of these.
+    fn as_far_as<'a: 'b, 'b>(
+        &self,
+        depth: f64,
+        (share, normal): (f64, DVec3),
+        others: impl Iterator<Item = (&'b Collider<'a>, f64)>,
+    ) -> f64 {
+        let at = self.now[0].lerp(self.now[1], share);
+        let ways = others.filter_map(|(body, root)| {
+            let room = body.distance(at) - self.keep_of(1, root);
+            let towards = -normal.dot(body.outwards(at));
+            (room < depth && towards > 0.0).then(|| room / towards)
+        });
+        ways.fold(depth, f64::min)
     }
 
     /// How far its end is from bodies, over what it keeps, in m.

@@ -51,7 +51,7 @@ impl Path {
     ) -> Option<(&'b Collider<'a>, Plane)> {
         let mut best: Option<(&Collider, Plane)> = None;
         for collider in colliders {
-            let Some(plane) = self.against(collider) else {
+            let Some(plane) = self.met(collider) else {
                 continue;
             };
             if best.as_ref().is_none_or(|(_, b)| plane.depth > b.depth) {
@@ -61,15 +61,10 @@ impl Path {
         best
     }
 
-    /// The plane of a body that the path meets, or comes near.
+    /// The plane of a body that the path meets, or comes near, within reach.
     #[inline(always)]
     pub(super) fn against(&self, collider: &Collider) -> Option<Plane> {
-        let plane = self.met(collider)?;
-        // A mesh's is left as it is: heads and shoulders are nowhere so thin that a way would lead past them, and keep their bits.
-        if collider.shape.is_sampled() {
-            return Some(plane);
-        }
-        Some(self.within_reach(plane, collider))
+        Some(self.within_reach(self.met(collider)?, collider))
     }
 
     /// The plane, but no farther in front of where the path begins than it is pushed out. A plane goes on beyond its body: what began behind it is beside the body or
