@@ -65,7 +65,7 @@ impl PathKind {
     /// # Errors
     ///
     /// When the subdivision is not within 1 to 64.
-    pub(crate) fn joints(
+    pub fn joints(
         self,
         particles: &[Vec3],
     ) -> Result<impl ExactSizeIterator<Item = Vec3>, PathError> {

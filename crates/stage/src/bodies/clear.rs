@@ -303,14 +303,19 @@ impl<'a, 'b> Near<'a, 'b> {
         let mut way = lack;
         let is_of_figure = self.bodies[index].1.is_of_figure;
         for (other, known) in self.bodies.iter().filter(|_| !is_of_figure) {
-            let room = other.distance(at) - gap;
+            // What it has no room for may touch it.
+            let room = other.distance(at) - gap.min(0.0);
             if room >= lack || known.is_under(to, place) {
                 continue;
             }
             let towards = -out.dot(other.outwards(at));
             if towards > 0.0 {
                 let all = room / towards;
-                let way_here = if known.is_of_figure { all } else { 0.5 * (lack + all) };
+                let way_here = if known.is_of_figure {
+                    all
+                } else {
+                    0.5 * (lack + all)
+                };
                 way = way.min(way_here).max(0.0);
             }
         }

@@ -12,6 +12,7 @@ use glam::Vec3;
 use stage::{Bake, Files, Motion, Preset, Scene, Stage};
 use std::fs;
 use std::path::{Path, PathBuf};
+use stroke_path::PathKind;
 
 /// The head's height and middle of the bust.
 const TAIL: &str = "(version: 1, undercoat: false, zones: [(name: \"tail\", form: tail, roots: [(180, 30)], hang: 1.5, count: 6)])";
@@ -69,13 +70,12 @@ fn points(scene: &Scene, motion: &mut Motion, time: f32) -> Vec<Vec3> {
     motion.points(scene, 0).to_vec()
 }
 
-/// How deep the points, and what is between them, are in a ball, m.
+/// How deep the way that is drawn through the points of strands is in a ball, m.
 fn depth_in(points: &[Vec3], strands: usize, center: Vec3, radius_m: f32) -> f32 {
-    let links = points
-        .chunks(points.len() / strands)
-        .flat_map(|strand| strand.windows(2));
-    links
-        .flat_map(|link| (0..=8).map(|i| link[0].lerp(link[1], i as f32 / 8.0)))
+    let drawn = PathKind::CatmullRom { subdivision: 8 };
+    let strands = points.chunks(points.len() / strands);
+    strands
+        .flat_map(|strand| drawn.joints(strand).unwrap())
         .map(|at| radius_m - at.distance(center))
         .fold(0.0, f32::max)
 }

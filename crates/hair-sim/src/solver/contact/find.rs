@@ -526,8 +526,11 @@ impl Looked<'_> {
             }
         }
         let bodies = self.bodies;
-        let is_of_figure = [&best, &second]
-            .map(|found| found.as_ref().is_some_and(|(index, _)| *index < bodies.of_one_figure));
+        let is_of_figure = [&best, &second].map(|found| {
+            found
+                .as_ref()
+                .is_some_and(|(index, _)| *index < bodies.of_one_figure)
+        });
         let mut surfaces = [best, second].map(|found| {
             found.map(|(index, plane)| bodies.surface(lane, &bodies.colliders[index], &plane))
         });
