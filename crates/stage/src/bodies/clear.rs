@@ -14,6 +14,8 @@ const BEHIND: f32 = 0.5;
 const NEAR: f32 = 1e-4;
 /// Moves no longer than this, m, are the last: what they push in is no deeper.
 const ENOUGH: f32 = 5e-5;
+/// Moves no shorter than this part of those before are the last where hair may have no room: they would only take it along, sideways.
+const IN_VAIN: f32 = 0.8;
 /// The next points aren't taken along by less than this, m.
 const LEAST: f32 = 1e-5;
 /// How far out of a mesh that it grows under hair may sway, as the solver has it, m.
@@ -37,7 +39,9 @@ pub(crate) fn clear(
     let held = held.max(1);
     let mut near = Near::new(bodies);
     near.root(points, held - 1);
+    let may_jam = near.bodies.iter().any(|(_, known)| !known.is_of_figure);
     let mut has_moved = false;
+    let mut before = f32::INFINITY;
     for _ in 0..CLEARINGS {
         let mut farthest = 0.0_f32;
         near.start(points, held - 1);
@@ -73,9 +77,11 @@ pub(crate) fn clear(
                 has_moved = true;
             }
         }
-        if farthest <= ENOUGH {
+        let is_in_vain = may_jam && farthest > IN_VAIN * before;
+        if farthest <= ENOUGH || is_in_vain {
             break;
         }
+        before = farthest;
     }
     has_moved
 }

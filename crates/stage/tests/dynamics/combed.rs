@@ -1,4 +1,4 @@
-//! Hair that something goes through slowly.
+//! Hair that something goes through slowly, or presses.
 
 use super::*;
 
@@ -12,9 +12,8 @@ fn rod(x: f32, y: f32, radius: f32) -> String {
     )
 }
 
-/// The fastest that a point of a look's hair gets as such a rod goes through it, in m/s, at 60 frames a second.
-fn fastest(look: &str, rod: &str) -> f32 {
-    const FPS: f32 = 60.0;
+/// How far the point of a look's hair that goes farthest goes from each frame to the next, m.
+fn ways(look: &str, script: &str, fps: f32, length_s: f32) -> Vec<f32> {
     let folder = tempfile::tempdir().unwrap();
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).unwrap();
@@ -22,23 +21,28 @@ fn fastest(look: &str, rod: &str) -> f32 {
     effects_surface::register(&mut registry).unwrap();
     let text = fs::read_to_string(presets().join(format!("{look}.ron"))).unwrap();
     let mut preset = Preset::parse(look, &text, &registry).unwrap();
-    preset.set("scene.fps", "60").unwrap();
+    preset.set("scene.fps", &fps.to_string()).unwrap();
     let files = Files {
         preset_folder: presets(),
-        motion: Some(written(folder.path(), "rod.motion.ron", rod)),
+        motion: Some(written(folder.path(), "a.motion.ron", script)),
         ..Files::default()
     };
     let scene = Scene::load(&preset, &files).unwrap();
     let mut motion = Motion::new();
-    let mut last: Vec<Vec3> = Vec::new();
-    (0..=(3.5 * FPS) as u32).fold(0.0, |fastest, frame| {
-        motion.advance_to(&scene, frame as f32 / FPS).unwrap();
-        let now = motion.points(&scene, 0).to_vec();
-        let ways = last.iter().zip(&now).map(|(a, b)| a.distance(*b) * FPS);
-        let fastest = ways.fold(fastest, f32::max);
-        last = now;
-        fastest
-    })
+    let mut points = |frame: u32| {
+        motion.advance_to(&scene, frame as f32 / fps).unwrap();
+        motion.points(&scene, 0).to_vec()
+    };
+    let mut last: Vec<Vec3> = points(0);
+    (1..=(length_s * fps) as u32)
+        .map(|frame| {
+            let now = points(frame);
+            let ways = last.iter().zip(&now).map(|(a, b)| a.distance(*b));
+            let farthest = ways.fold(0.0, f32::max);
+            last = now;
+            farthest
+        })
+        .collect()
 }
 
 /// Locks that it pressed against head, shoulders and each other shot off at up to 14 m/s.
@@ -57,9 +61,43 @@ fn what_a_slow_rod_goes_through_is_not_thrown() {
         ("low-tie", &[(-0.15, -0.8, 0.02)]),
     ] {
         for &(x, y, radius) in places {
-            let fastest = fastest(look, &rod(x, y, radius));
+            let ways = ways(look, &rod(x, y, radius), 60.0, 3.5);
+            let fastest = 60.0 * ways.into_iter().fold(0.0, f32::max);
             println!("{look}, a rod at {x}, {y}, of radius {radius}: {fastest:.1} m/s at most");
             assert!(fastest > 0.3 && fastest < 4.0, "{look}: {fastest}");
+        }
+    }
+}
+
+/// An arm that is laid on her back at a quarter of a metre a second: how far below her head's middle, in head heights, and how far behind it its axis is in the end.
+fn arm(y: f32, z: f32) -> String {
+    format!(
+        "(version: 1, bodies: [(name: \"arm\", shape: capsule, at: (-1.5, {y}, {z}), to: (1.5, {y}, {z}), radius: 0.16)], body_keys: [\
+         (body: \"arm\", time: 0.1, at: (0, 0, -1.2)), (body: \"arm\", time: 1.1), (body: \"arm\", time: 1.4)])"
+    )
+}
+
+/// What lies under it has hardly room: pushed out of arm and back in turns it came out at their sides, by up to 320 mm from a frame to the next, for more than 15 s.
+#[test]
+fn what_an_arm_presses_against_a_back_stays_there() {
+    for (look, y, z) in [
+        ("long-pink", -1.05, -0.45),
+        ("long-pink", -0.8, -0.45),
+        ("blond-fantasy", -1.05, -0.5),
+    ] {
+        for fps in [24.0, 60.0] {
+            let ways = ways(look, &arm(y, z), fps, 4.0);
+            let speed = |ways: &[f32]| ways.iter().copied().fold(0.0, f32::max) * fps;
+            let (as_it_comes, after) = ways.split_at((1.5 * fps) as usize);
+            let [as_it_comes, after] = [as_it_comes, after].map(speed);
+            println!(
+                "{look}, an arm at {y}, {z}, {fps} frames a second: {as_it_comes:.1} m/s at most as it comes, {after:.1} after"
+            );
+            assert!(
+                as_it_comes > 0.3 && as_it_comes < 3.0,
+                "{look}, {fps}: {as_it_comes}"
+            );
+            assert!(after < 2.0, "{look}, {fps}: {after}");
         }
     }
 }

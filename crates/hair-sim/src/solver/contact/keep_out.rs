@@ -199,20 +199,29 @@ impl Link {
         true
     }
 
-    /// How far a place of it, which is so deep in a body, can go out of it before it meets one of these.
+    /// How far a place of it, which is so deep in a body, can go out of it before that or its end meets one of these.
     fn as_far_as<'a: 'b, 'b>(
         &self,
         depth: f64,
         (share, normal): (f64, DVec3),
         others: impl Iterator<Item = (&'b Collider<'a>, f64)>,
     ) -> f64 {
-        let at = self.now[0].lerp(self.now[1], share);
-        let ways = others.filter_map(|(body, root)| {
-            let room = body.distance(at) - self.keep_of(1, root);
-            let towards = -normal.dot(body.outwards(at));
-            (room < depth && towards > 0.0).then(|| room / towards)
-        });
-        ways.fold(depth, f64::min)
+        let share = share.max(LEAST_SHARE);
+        let places = [
+            (1.0, self.now[0].lerp(self.now[1], share)),
+            (share, self.now[1]),
+        ];
+        let mut least = depth;
+        for (body, root) in others {
+            for (per_end, at) in places {
+                let room = body.distance(at) - self.keep_of(1, root);
+                let towards = -normal.dot(body.outwards(at));
+                if towards > 0.0 {
+                    least = least.min(per_end * room.max(0.0) / towards);
+                }
+            }
+        }
+        least
     }
 
     /// How far its end is from bodies, over what it keeps, in m.
