@@ -13,7 +13,7 @@ mod path;
 
 use glam::DVec3;
 
-use crate::lanes::{Lane, Mask, Sym3, Vec3};
+use crate::lanes::{LANES, Lane, Mask, Sym3, Vec3};
 
 use super::{
     batch::{Batch, BatchState, CREEP},
@@ -40,6 +40,11 @@ const NEAR: f64 = 2e-3;
 /// for the next step, which starts with the plane: half the radius of a hair.
 const TOUCH: f64 = 2e-5;
 
+/// What is pushed out of a body by more than this in a step, in m, gains no speed by it. A stage that is moved has more than twice the speed that took it there: between two
+/// walls, as an arm and a side are, a tip was thrown from one to the other twice as fast each time.
+const PUSHED: f64 = 1e-3;
+const FREELY: Lane = Lane([f64::INFINITY; LANES]);
+
 /// The pressure of the last step foretells that a particle is held which is no farther than this, in m, from its plane without it. What jams between two bodies is
 /// pressed by thousands of m/s^2, and by the next step the plane may be that of another place: held there, a lock was drawn to it by decimetres at once.
 pub(super) const REBOUND: f64 = 5e-3;
@@ -64,6 +69,8 @@ pub(crate) struct Contact {
     /// The pressure of the last step in m/s^2, and that which friction is known to be bound by: nothing where the last step was a blow.
     pub press: Lane,
     pub bound: Lane,
+    /// How fast the particle may leave the plane after the step, in m/s.
+    pub leaves: Lane,
 }
 
 impl Contact {
@@ -79,6 +86,7 @@ impl Contact {
         creep: Lane::ZERO,
         press: Lane::ZERO,
         bound: Lane::ZERO,
+        leaves: FREELY,
     };
 
     /// As where no strand has a plane.
@@ -103,7 +111,10 @@ impl Contact {
         self.end[lane] = surface.end;
         self.flow.set(lane, flow);
         let velocity = state.v[k].get(lane) - flow;
-        let sliding = (velocity - normal * velocity.dot(normal)).length();
+        let out = velocity.dot(normal);
+        let is_pushed = surface.start - normal.dot(state.y[k].get(lane)) > PUSHED;
+        self.leaves[lane] = if is_pushed { out.max(0.0) } else { FREELY[lane] };
+        let sliding = (velocity - normal * out).length();
         let bound = if creep > 0.0 { press } else { 0.0 };
         let sticks = bound > 0.0 && sliding <= creep;
         let (creep, speed) = if sticks {
@@ -162,6 +173,13 @@ impl Contact {
         self.holds = mask.pick(Lane::ONE, self.holds);
     }
 
+    /// By how much a particle that has this velocity leaves the plane faster than it may, in m/s.
+    #[inline(always)]
+    pub(crate) fn too_fast(&self, velocity: Vec3) -> Lane {
+        let out = self.normal.dot(velocity - self.flow);
+        (out - self.leaves).max(Lane::ZERO) * self.on
+    }
+
     /// The pressure on a particle at `y` at the end of a step, in m/s^2.
     #[inline(always)]
     pub(crate) fn pressure(&self, y: Vec3) -> Lane {
@@ -212,10 +230,11 @@ impl Contact {
     }
 }
 
-/// What a particle can't pass in a step: its normal, how far along it the surface is from the root at the middle stage and at the end, in m,
+/// What a particle can't pass in a step: its normal, how far along it the surface is from the root at the start, at the middle stage and at the end, in m,
 /// and its velocity from the root, in m/s.
 pub(crate) struct Surface {
     pub normal: DVec3,
+    pub start: f64,
     pub mid: f64,
     pub end: f64,
     pub flow: DVec3,

@@ -111,8 +111,8 @@ pub(super) fn forget_planes(state: &mut BatchState, which: Mask) {
     }
 }
 
-/// Remembers the pressure of a plane on particle `k` at `y`, and takes the blow of a contact out of its acceleration: that is over, and
-/// the next step must not start with it. Returns the strands that were struck: they start anew.
+/// Remembers the pressure of a plane on particle `k` at `y`, and takes the blow of a contact out of its acceleration, and out of its velocity what pushing it out of a body
+/// gave it: that is over, and the next step must not start with it. Returns the strands that were struck: they start anew.
 #[inline(always)]
 fn settle_contact(
     state: &mut BatchState,
@@ -126,6 +126,8 @@ fn settle_contact(
     let a = state.a[k];
     let out = a.dot(contact.normal).max(Lane::ZERO) * contact.holds;
     state.a[k] = Vec3::pick(which, a - contact.normal * out, a);
+    let v = state.v[k];
+    state.v[k] = Vec3::pick(which, v - contact.normal * contact.too_fast(v), v);
     let presses = press.gt(Lane::ZERO).and(which);
     let is_new = (contact.press.gt(Lane::ZERO).not()).and(presses);
     let creep = is_new.pick(Lane::ZERO, contact.creep);

@@ -609,6 +609,7 @@ impl Locks {
                 let shift = root.get(lane) - state.root.get(lane);
                 let surface = Surface {
                     normal,
+                    start: f64::NEG_INFINITY, // locks part by little in a step
                     mid: before + (end - before) * GAMMA,
                     end,
                     flow: (meeting.flow.get(plane.lane) - shift) / self.dt,

@@ -103,10 +103,13 @@ const BREAK_AT: f64 = 0.1;
 const REPULSION: f64 = 200.0;
 const APART: f64 = 0.06;
 
+fn links_and_volume(section: &DynamicsSection) -> [f64; 2] {
+    [section.links, section.volume].map(|given| f64::from(given.unwrap_or(1.0)))
+}
+
 /// How clumps act on each other on a head; nothing where they don't.
 pub(crate) fn mutual(section: &DynamicsSection, head: Head) -> Option<Mutual> {
-    let factor = |given: Option<f32>| f64::from(given.unwrap_or(1.0));
-    let (links, volume) = (factor(section.links), factor(section.volume));
+    let [links, volume] = links_and_volume(section);
     let height_m = f64::from(head.height_m);
     (links > 0.0 || volume > 0.0).then_some(Mutual {
         neighbours: NEIGHBOURS,
@@ -192,6 +195,10 @@ impl Feel {
         let number =
             |of: fn(&ZoneDynamics) -> f32| strand.zone.map_or(1.0, |zone| f64::from(of(zone)));
         let damping = f64::from(section.damping.unwrap_or(1.0)) * number(|zone| zone.damping);
+        let least_damping = match links_and_volume(section) {
+            [0.0, 0.0] => 0.0,
+            _ => LEAST_DAMPING,
+        };
         let feel = strand.zone.and_then(|zone| zone.feel);
         let word = feel.unwrap_or(section.feel).word();
         let [root, middle, tip] = self.hold.unwrap_or(word.hold);
@@ -199,7 +206,7 @@ impl Feel {
         Params {
             material: Material::from_gamma(gamma, strand.length_m.clamp(1e-4, LONGEST_M)),
             stiffness: stiffness.along(ALONG, LEAST_STIFFNESS),
-            damping: (word.damping * damping).min(10.0),
+            damping: (word.damping * damping).clamp(least_damping, 10.0),
             drag: word.drag * drag.whole,
             drag_at: drag.along(Profile::constant(1.0), 0.0),
             wind: wind.all_along(Profile::constant(1.0)),
@@ -216,6 +223,10 @@ impl Feel {
 /// The longest hair that is as stiff for its length as its feel says, m: what is longer has hardly the unit that it should have, and the stiffness
 /// that it would need is no number to solve for.
 const LONGEST_M: f64 = 20.0;
+
+/// The least damping of hair that holds and pushes each other, s. What a strand does to another it isn't done in return, and in undamped hair at rest that made locks
+/// swing more and more, or for ever: 1 ms is too little for `long-pink`.
+const LEAST_DAMPING: f64 = 2e-3;
 
 /// The least factor on a stiffness: one that differs from strand to strand may come to nothing.
 const LEAST_STIFFNESS: f64 = 0.001;

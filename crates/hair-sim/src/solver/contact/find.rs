@@ -131,6 +131,7 @@ impl Bodies<'_> {
         let (s0, s1) = (s0 - self.before.get(lane), s1 - self.now.get(lane));
         Surface {
             normal,
+            start: normal.dot(s0),
             mid: normal.dot(s0 + (s1 - s0) * GAMMA),
             end: normal.dot(s1),
             flow: (s1 - s0) / self.dt,
