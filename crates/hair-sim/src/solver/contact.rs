@@ -41,8 +41,8 @@ const NEAR: f64 = 2e-3;
 const TOUCH: f64 = 2e-5;
 
 /// What is pushed out of a body by more than this in a step, in m, gains no speed by it. A stage that is moved has more than twice the speed that took it there: between two
-/// walls, as an arm and a side are, a tip was thrown from one to the other twice as fast each time.
-const PUSHED: f64 = 1e-3;
+/// walls, as an arm and a side are, a tip was thrown from one to the other twice as fast each time. With 4 mm locks that jam take longer to come to rest.
+const PUSHED: f64 = 8e-3;
 const FREELY: Lane = Lane([f64::INFINITY; LANES]);
 
 /// The pressure of the last step foretells that a particle is held which is no farther than this, in m, from its plane without it. What jams between two bodies is
@@ -113,7 +113,11 @@ impl Contact {
         let velocity = state.v[k].get(lane) - flow;
         let out = velocity.dot(normal);
         let is_pushed = surface.start - normal.dot(state.y[k].get(lane)) > PUSHED;
-        self.leaves[lane] = if is_pushed { out.max(0.0) } else { FREELY[lane] };
+        self.leaves[lane] = if is_pushed {
+            out.max(0.0)
+        } else {
+            FREELY[lane]
+        };
         let sliding = (velocity - normal * out).length();
         let bound = if creep > 0.0 { press } else { 0.0 };
         let sticks = bound > 0.0 && sliding <= creep;

@@ -33,6 +33,8 @@ const SOMEWHERE: f64 = 0.3;
 const GETS_ON: f64 = 1.0;
 /// What jams may creep as well: a tip that has gone no faster than this, in m/s, gets nowhere either. What swings so fast goes half a millimetre to and fro.
 const CREEPS: f64 = 5e-3;
+/// Where there are bodies of no figure, one that presses by more than this, in m/s^2, has no room for what it presses, or that goes through it: however it moves, it jams.
+const SQUEEZED: f64 = 1e4;
 /// Whatever others still press on counts so many seconds after all that acts came to rest, and after so many over its drag: little is left of what swung, and
 /// what gets on wanders about in a jam. Without drag none does, as it may swing for ever.
 const LONG: f64 = 5.0;
@@ -145,6 +147,12 @@ fn moved(
         let presses = press.gt(Lane::ZERO);
         held = presses.pick(held_fast * stays, held);
         rocks = presses.pick(turns, rocks);
+    }
+    let around = drive.surroundings;
+    if around.colliders.len() > around.of_one_figure.max(1) {
+        for press in bodies.iter().chain(second) {
+            held = press.gt(Lane::splat(SQUEEZED)).pick(Lane::ONE, held);
+        }
     }
     for press in others {
         held = press.gt(Lane::ZERO).pick(stays, held);
