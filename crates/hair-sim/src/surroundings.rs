@@ -97,8 +97,8 @@ pub struct Surroundings<'a> {
     pub streams: &'a [Stream],
     /// What hair cannot enter.
     pub colliders: &'a [Collider<'a>],
-    /// How many of these, the first ones, are parts of one figure that leave hair room between them, as a head and its shoulders. What lies between any others
-    /// is kept out of both, which takes longer, and what is found in a body is put out more slowly. Of meshes after these hair that grows under one, as its root is in it, isn't kept
+    /// How many of these, the first ones, are parts of one figure that leave hair room between them, as a head and its shoulders. What lies between one of them
+    /// and any other is kept out of the figure, and of the other as far as that leaves room; between two others, of both. That takes longer, and what is found in a body is put out more slowly. Of meshes after these hair that grows under one, as its root is in it, isn't kept
     /// out until it leaves it, as under a hat. 0 where nothing is known of them: then the first is taken for the figure's.
     pub of_one_figure: usize,
     /// Places in style space for the points of all strands, in their order, to which [`Params::goal`](crate::Params::goal) pulls; `None`

@@ -111,8 +111,8 @@ pub(super) fn forget_planes(state: &mut BatchState, which: Mask) {
     }
 }
 
-/// Remembers the pressure of a plane on particle `k` at `y`, and takes the blow of a contact out of its acceleration, and out of its velocity what pushing it out of a body
-/// gave it: that is over, and the next step must not start with it. Returns the strands that were struck: they start anew.
+/// Remembers the pressure of a plane on particle `k` at `y`, and takes the blow of a contact out of its acceleration: that is over, and
+/// the next step must not start with it. Nor with the speed that a body has pushed it out by. Returns the strands that were struck: they start anew.
 #[inline(always)]
 fn settle_contact(
     state: &mut BatchState,

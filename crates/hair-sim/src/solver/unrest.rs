@@ -33,7 +33,7 @@ const SOMEWHERE: f64 = 0.3;
 const GETS_ON: f64 = 1.0;
 /// What jams may creep as well: a tip that has gone no faster than this, in m/s, gets nowhere either. What swings so fast goes half a millimetre to and fro.
 const CREEPS: f64 = 5e-3;
-/// Where there are bodies of no figure, one that presses by more than this, in m/s^2, has no room for what it presses, or that goes through it: however it moves, it jams.
+/// Where there are bodies of no figure, what is pressed by more than this, in m/s^2, has no room, or a body goes through it: it jams, however it moves.
 const SQUEEZED: f64 = 1e4;
 /// Whatever others still press on counts so many seconds after all that acts came to rest, and after so many over its drag: little is left of what swung, and
 /// what gets on wanders about in a jam. Without drag none does, as it may swing for ever.
@@ -124,7 +124,7 @@ fn has_swung(batch: &Batch, state: &BatchState) -> Mask {
 }
 
 /// What counts of the step before, in s: as moved, where others press on strands, or a body on those that are tied or between two, and they go nowhere; and as rocked, where a
-/// body presses on any, and they turn back, or as a ball lifts them. Of both, until they stick, what goes on takes away again.
+/// body presses on any, and they turn back, or as a ball lifts them. Of both, until they stick, what goes on takes away again. What is [squeezed](SQUEEZED) counts as moved.
 #[inline(always)]
 fn moved(
     batch: &Batch,
@@ -148,14 +148,14 @@ fn moved(
         held = presses.pick(held_fast * stays, held);
         rocks = presses.pick(turns, rocks);
     }
+    for press in others {
+        held = press.gt(Lane::ZERO).pick(stays, held);
+    }
     let around = drive.surroundings;
     if around.colliders.len() > around.of_one_figure.max(1) {
         for press in bodies.iter().chain(second) {
             held = press.gt(Lane::splat(SQUEEZED)).pick(Lane::ONE, held);
         }
-    }
-    for press in others {
-        held = press.gt(Lane::ZERO).pick(stays, held);
     }
     rocks = is_lifted.pick(Lane::ONE, rocks);
     // Goals that go through key shapes move strands themselves.

@@ -14,8 +14,9 @@ const BEHIND: f32 = 0.5;
 const NEAR: f32 = 1e-4;
 /// Moves no longer than this, m, are the last: what they push in is no deeper.
 const ENOUGH: f32 = 5e-5;
-/// Moves no shorter than this part of those before are the last where hair may have no room: they would only take it along, sideways.
+/// Moves no shorter than this part of those before are in vain. So many times in a row and they are the last where hair may have no room: they would only take it along, sideways.
 const IN_VAIN: f32 = 0.8;
+const PATIENCE: u32 = 3;
 /// The next points aren't taken along by less than this, m.
 const LEAST: f32 = 1e-5;
 /// How far out of a mesh that it grows under hair may sway, as the solver has it, m.
@@ -28,7 +29,8 @@ pub(crate) type Gap = [f32; PLACES.len()];
 
 /// Moves the points of a strand behind the first `held` out of bodies, with the way that is drawn between them, until each place is as far away as
 /// `gap` says of the link that ends at a point, which is `most` m at most, but for a tenth of a millimetre; where the last held point is in a ball or a capsule, hair comes
-/// out of it by and by ([`LEADS_OUT`]), and where it is in a mesh that is [worn](followed), as under a hat, hair stays in that until it leaves it by itself. Whether any moved: what is clear stays, to the bit.
+/// out of it by and by ([`LEADS_OUT`]), and where it is in a mesh that is [worn](followed), as under a hat, hair stays in that until it leaves it by itself. Where there is no room between the figure and
+/// another body, hair is in that. Whether any moved: what is clear stays, to the bit.
 pub(crate) fn clear(
     points: &mut [Vec3],
     held: usize,
@@ -41,7 +43,7 @@ pub(crate) fn clear(
     near.root(points, held - 1);
     let may_jam = near.bodies.iter().any(|(_, known)| !known.is_of_figure);
     let mut has_moved = false;
-    let mut before = f32::INFINITY;
+    let (mut last_farthest, mut in_vain) = (f32::INFINITY, 0);
     for _ in 0..CLEARINGS {
         let mut farthest = 0.0_f32;
         near.start(points, held - 1);
@@ -77,11 +79,15 @@ pub(crate) fn clear(
                 has_moved = true;
             }
         }
-        let is_in_vain = may_jam && farthest > IN_VAIN * before;
-        if farthest <= ENOUGH || is_in_vain {
+        in_vain = if farthest > IN_VAIN * last_farthest {
+            in_vain + 1
+        } else {
+            0
+        };
+        if farthest <= ENOUGH || may_jam && in_vain == PATIENCE {
             break;
         }
-        before = farthest;
+        last_farthest = farthest;
     }
     has_moved
 }
@@ -258,8 +264,9 @@ impl<'a, 'b> Near<'a, 'b> {
         is_clear
     }
 
-    /// What takes a place of the link that was gone on to last out of the body that it is deepest in, to `gap` m from it; nothing where it is out of all. Where the figure leaves it no room there, as under an arm that lies on a back, no farther
-    /// than to that, and where another body does, to the middle between the two: pushed out of one and the other in turns it would come out at their sides, now here, now there. What `moves` may have come near others than it could meet before.
+    /// What takes a place of the link that was gone on to last out of the body that it is deepest in, to `gap` m from it; nothing where it is out of all, or can't go farther. Where the figure
+    /// leaves it no room there, as under an arm that lies on a back, it goes no farther than to that, and out of that if it is in it; where another body does, to the middle between the two. Pushed
+    /// out of one and the other in turns it would come out at their sides, now here, now there. What `moves` may have come near others than it could meet before.
     fn push(
         &mut self,
         points: &[Vec3],
@@ -307,12 +314,17 @@ impl<'a, 'b> Near<'a, 'b> {
         let at = at.unwrap_or_else(|| on_path(points, to, PLACES[place]));
         let out = body.outwards(at);
         let mut way = lack;
+        let mut in_figure: Option<(f32, &Placed)> = None;
         let is_of_figure = self.bodies[index].1.is_of_figure;
         for (other, known) in self.bodies.iter().filter(|_| !is_of_figure) {
             // What it has no room for may touch it.
-            let room = other.distance(at) - gap.min(0.0);
+            let gap = led.map_or(gap, |led| gap.min(known.root + led)).min(0.0);
+            let room = other.distance(at) - gap;
             if room >= lack || known.is_under(to, place) {
                 continue;
+            }
+            if known.is_of_figure && room < in_figure.map_or(0.0, |(room, _)| room) {
+                in_figure = Some((room, *other));
             }
             let towards = -out.dot(other.outwards(at));
             if towards > 0.0 {
@@ -322,8 +334,11 @@ impl<'a, 'b> Near<'a, 'b> {
                 } else {
                     0.5 * (lack + all)
                 };
-                way = way.min(way_here).max(0.0);
+                way = way.min(way_here);
             }
+        }
+        if let Some((room, figure)) = in_figure.filter(|_| way <= 0.0) {
+            return Some(figure.outwards(at) * -room);
         }
         (way > 0.0).then(|| out * way)
     }

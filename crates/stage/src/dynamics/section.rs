@@ -58,7 +58,7 @@ section! {
         /// Factor on the stiffness against bending and twisting. What varies along a strand is taken at its root, half way and its tip, with a
         /// quadratic between.
         stiffness: Variation = varying(1.0, 0.001..=1000.0),
-        /// Factor on how soon swinging dies down in the hair itself; with `links` or `volume` it does by a little even at 0.
+        /// Factor on how soon swinging dies down in the hair itself. With `links` or `volume` it never takes longer than at about a tenth.
         damping: Option<f32> = number(1.0, 0.0..=100.0).optional(),
         /// Factor on the drag of the air, and so on the pull of the wind.
         drag: Variation = varying(1.0, 0.0..=100.0),

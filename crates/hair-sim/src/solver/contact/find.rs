@@ -110,10 +110,15 @@ impl Bodies<'_> {
         self.guards.iter().any(|guard| guard.has_links)
     }
 
+    /// How many bodies, the first ones, are the figure's.
+    pub(super) fn of_figure(&self) -> usize {
+        self.of_one_figure.max(1)
+    }
+
     /// Whether two of them may press hair between them.
     #[inline]
     pub(crate) fn may_wedge(&self) -> bool {
-        self.have_links() || self.guards.len() > self.of_one_figure.max(1)
+        self.have_links() || self.guards.len() > self.of_figure()
     }
 
     /// How fast what is found in a body is put out of it where two of them may press hair between them, in m/s.
@@ -468,7 +473,7 @@ impl Looked<'_> {
     }
 
     /// The planes of particle `k`, between links that lack this, where `last_lift` is by how much it was farther from a body than it would be alone, and `near` the bodies that have any: that which
-    /// it is deepest behind, and the one of another body. Held by one alone, what lies between two bodies would be thrown from one to the other for ever. The figure's own keeps what it holds.
+    /// it is deepest behind, and the one of another body. Held by one alone, what lies between two bodies would be thrown from one to the other for ever. Another body's gives way to the figure's.
     fn particle(
         &self,
         k: usize,
@@ -530,7 +535,7 @@ impl Looked<'_> {
         let is_of_figure = [&best, &second].map(|found| {
             found
                 .as_ref()
-                .is_some_and(|(index, _)| *index < bodies.of_one_figure)
+                .is_some_and(|(index, _)| *index < bodies.of_figure())
         });
         let mut surfaces = [best, second].map(|found| {
             found.map(|(index, plane)| bodies.surface(lane, &bodies.colliders[index], &plane))

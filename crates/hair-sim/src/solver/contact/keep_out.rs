@@ -121,9 +121,9 @@ fn strand(
         }
         let is_near = ways.near[k].get(lane) || k > 0 && ways.near[k - 1].get(lane);
         let is_link = k < batch.counts[lane];
-        let ways = [0, 1].map(|end| link.now[end].distance(link.before[end]));
-        link.most += ways[0].max(ways[1]);
-        if is_link && (turned || is_near) && link.turn_out(colliders, bodies.of_one_figure) {
+        let gone = [0, 1].map(|end| link.now[end].distance(link.before[end]));
+        link.most += gone[0].max(gone[1]);
+        if is_link && (turned || is_near) && link.turn_out(colliders, bodies.of_figure()) {
             turned = true;
             // What lies on a body would fall into it again in the next step.
             let last = &mut state.lifts[k][lane];
@@ -160,7 +160,7 @@ struct Link {
     /// How much farther out of a body than the root of the strand they may have to be, in m.
     leads_out: [f64; 2],
     length: f64,
-    /// How far its end may be moved, in m.
+    /// How far its end may be moved from where the step left it, in m.
     most: f64,
     dt: f64,
 }
@@ -171,7 +171,7 @@ impl Link {
         self.keep[end].min(root + self.leads_out[end])
     }
 
-    /// Turns it about its start until it is out of all bodies, in which the strand's root is so deep each, but not into the first ones, the figure's. Returns whether it was in one.
+    /// Turns it about its start out of all bodies, in which the strand's root is so deep each, but not into the first ones, the figure's, and its end by no more than `most`. Returns whether it was turned.
     fn turn_out<'a: 'b, 'b, I>(&mut self, colliders: impl Fn() -> I, of_figure: usize) -> bool
     where
         I: Iterator<Item = (&'b Collider<'a>, f64)>,
@@ -180,13 +180,26 @@ impl Link {
         for turn in 0..MOST_TURNS {
             let most = if turn == 0 { DEEP } else { OUT };
             let mut deepest = (most, 1.0, DVec3::ZERO);
-            for body in colliders().filter(|(body, _)| !body.shape.is_sampled()) {
-                self.look(body, turn < BY_WAYS, &mut deepest);
+            let mut of = 0;
+            for (index, body) in colliders().enumerate() {
+                let depth = deepest.0;
+                if !body.0.shape.is_sampled() {
+                    self.look(body, turn < BY_WAYS, &mut deepest);
+                }
+                if deepest.0 > depth {
+                    of = index;
+                }
             }
             let (depth, share, normal) = deepest;
             let depth = match normal == DVec3::ZERO {
                 true => 0.0,
-                false => self.as_far_as(depth, (share, normal), colliders().take(of_figure)),
+                false => {
+                    let figure = colliders().take(of_figure).enumerate();
+                    let others = figure
+                        .filter(|(index, _)| *index != of)
+                        .map(|(_, body)| body);
+                    self.as_far_as(depth, (share, normal), others)
+                }
             };
             if depth <= most {
                 return turn > 0;
@@ -214,10 +227,13 @@ impl Link {
         let mut least = depth;
         for (body, root) in others {
             for (per_end, at) in places {
-                let room = body.distance(at) - self.keep_of(1, root);
+                let room = per_end * (body.distance(at) - self.keep_of(1, root)).max(0.0);
+                if room >= least {
+                    continue;
+                }
                 let towards = -normal.dot(body.outwards(at));
                 if towards > 0.0 {
-                    least = least.min(per_end * room.max(0.0) / towards);
+                    least = least.min(room / towards);
                 }
             }
         }
