@@ -45,6 +45,9 @@ const TOUCH: f64 = 2e-5;
 const PUSHED: f64 = 8e-3;
 const FREELY: Lane = Lane([f64::INFINITY; LANES]);
 
+/// Hair that is beside a figure is pushed towards it by no more than this in a step, in m, where another body comes: pushed all the way at once it trembles more under that.
+const REACHED: f64 = 5e-3;
+
 /// The pressure of the last step foretells that a particle is held which is no farther than this, in m, from its plane without it. What jams between two bodies is
 /// pressed by thousands of m/s^2, and by the next step the plane may be that of another place: held there, a lock was drawn to it by decimetres at once.
 pub(super) const REBOUND: f64 = 5e-3;
@@ -253,7 +256,7 @@ impl Surface {
             return;
         }
         for (own, other_level) in [(&mut self.mid, other.mid), (&mut self.end, other.end)] {
-            let out = other_level - other.normal.dot(y);
+            let out = (other_level - other.normal.dot(y)).max(-REACHED);
             let lack = *own - self.normal.dot(y + other.normal * out);
             *own -= against * against * lack.max(0.0);
         }

@@ -16,7 +16,7 @@ const NEAR: f32 = 1e-4;
 const ENOUGH: f32 = 5e-5;
 /// Moves no shorter than this part of those before are in vain. So many times in a row and they are the last where hair may have no room: they would only take it along, sideways.
 const IN_VAIN: f32 = 0.8;
-const PATIENCE: u32 = 3;
+const PATIENCE: u32 = 2;
 /// The next points aren't taken along by less than this, m.
 const LEAST: f32 = 1e-5;
 /// How far out of a mesh that it grows under hair may sway, as the solver has it, m.
