@@ -40,8 +40,8 @@ const NEAR: f64 = 2e-3;
 /// for the next step, which starts with the plane: half the radius of a hair.
 const TOUCH: f64 = 2e-5;
 
-/// A particle that a body pushes out by more than this in a step, in m, leaves it no faster than it did before. A stage that puts it elsewhere says that it goes on there, more than
-/// twice as fast as it took to get there: between two walls, as an arm and a side are, a tip was thrown from one to the other twice as fast each time. With 4 mm locks that jam take longer to come to rest.
+/// Where hair may be pressed between two bodies, a particle that one pushes out by more than this in a step, in m, leaves it no faster than it did before. A stage that puts it elsewhere says
+/// that it goes on there, more than twice as fast as it took to get there: from one to the other it would be thrown twice as fast each time. With 4 mm locks that jam take longer to come to rest.
 const PUSHED: f64 = 8e-3;
 const FREELY: Lane = Lane([f64::INFINITY; LANES]);
 

@@ -325,7 +325,11 @@ fn detect_alone<T: Number>(
                         continue;
                     };
                     found += 1;
-                    let surface = bodies.surface(lane, collider, &plane);
+                    // Recalled hair has to leave a shoulder by the speed that it is pushed out with.
+                    let surface = Surface {
+                        start: f64::NEG_INFINITY,
+                        ..bodies.surface(lane, collider, &plane)
+                    };
                     put(contacts, touched, (0, k, lane), &surface, (batch, state));
                 }
             }
