@@ -41,7 +41,7 @@ const NEAR: f64 = 2e-3;
 const TOUCH: f64 = 2e-5;
 
 /// Where hair may be pressed between two bodies, a particle that one pushes out by more than this in a step, in m, leaves it no faster than it did before. A stage that puts it elsewhere says
-/// that it goes on there, more than twice as fast as it took to get there: from one to the other it would be thrown twice as fast each time. With 4 mm locks that jam take longer to come to rest.
+/// that it goes on there, more than twice as fast as it took to get there: from one to the other it would be thrown twice as fast each time.
 const PUSHED: f64 = 8e-3;
 const FREELY: Lane = Lane([f64::INFINITY; LANES]);
 
@@ -271,4 +271,47 @@ pub(crate) enum Due {
     Expected(Lane),
     /// A stage's answer is behind the plane.
     Passed,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn surface(normal: DVec3, level: f64) -> Surface {
+        Surface {
+            normal,
+            start: level,
+            mid: level,
+            end: level,
+            flow: DVec3::ZERO,
+        }
+    }
+
+    /// An arm's underside against a back at 0 mm, and what is left of it: as it was where there is room, at the back where there is none, and on the way there no farther than hair is
+    /// pushed in a step.
+    #[test]
+    fn an_arm_leaves_hair_the_room_that_a_back_needs() {
+        let back = surface(DVec3::Z, 0.0);
+        let left = |underside: f64, y: f64, normal: DVec3| {
+            let mut arm = surface(normal, -underside);
+            arm.give_way(&back, DVec3::Z * y);
+            assert_eq!(arm.mid, arm.end);
+            -arm.end
+        };
+        for (underside, y, expected) in [
+            (0.02, 0.005, 0.02),
+            (0.002, 0.005, 0.002),
+            (-0.003, 0.001, 0.0),
+            (0.002, 0.015, 0.01),
+            // In the back already: out of that first.
+            (-0.003, -0.004, 0.0),
+        ] {
+            let left = left(underside, y, DVec3::NEG_Z);
+            assert!((left - expected).abs() < 1e-12, "{left} for {expected}");
+        }
+        // At its side hair gets out.
+        for normal in [DVec3::X, DVec3::Z] {
+            assert_eq!(left(-0.003, 0.001, normal), -0.003);
+        }
+    }
 }

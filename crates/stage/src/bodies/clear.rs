@@ -446,6 +446,48 @@ mod tests {
         assert!(nearest > gap - 2.0 * NEAR, "{nearest}");
     }
 
+    /// Hair between a back and an arm that comes 30 mm into it is left out of the back, on its own side, and in the arm; without the back it is moved out of the arm.
+    #[test]
+    fn what_has_no_room_stays_out_of_the_figure() {
+        // Its skin is at z = 0.
+        let back = Placed::new(&Collider::fixed(
+            Shape::Sphere {
+                center: DVec3::NEG_Z,
+                radius: 1.0,
+            },
+            Pose::IDENTITY,
+        ));
+        let arm = Placed::new(&Collider::fixed(
+            Shape::Capsule {
+                from: DVec3::new(-0.3, 0.0, 0.01),
+                to: DVec3::new(0.3, 0.0, 0.01),
+                radius: 0.04,
+            },
+            Pose::IDENTITY,
+        ));
+        let hanging: Vec<Vec3> = (0..13)
+            .map(|i| Vec3::new(0.01, 0.3 - 0.05 * i as f32, 0.006))
+            .collect();
+        let gap = 1e-3;
+        let cleared = |bodies: &[Placed], of_figure: usize| {
+            let mut moved = hanging.clone();
+            let mut bodies = followed(bodies, of_figure);
+            clear(&mut moved, 1, &mut bodies, gap, |_| [gap; 4]);
+            moved
+        };
+        let pressed = cleared(&[back, arm], 1);
+        let farthest = |moved: &[Vec3]| {
+            let ways = moved.iter().zip(&hanging).map(|(a, b)| a.distance(*b));
+            ways.fold(0.0, f32::max)
+        };
+        let in_back = -nearest(&pressed, &[back]);
+        assert!(in_back < 1e-3, "{in_back}");
+        assert!(farthest(&pressed) < 0.02, "{}", farthest(&pressed));
+        let alone = cleared(&[arm], 0);
+        let in_arm = -nearest(&alone, &[arm]);
+        assert!(in_arm < 5e-4, "{in_arm}");
+    }
+
     proptest! {
         /// What is as far away as it began stays, to the bit, wherever that is.
         #[test]
