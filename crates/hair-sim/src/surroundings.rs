@@ -77,6 +77,8 @@ pub struct Anchor {
     pub stiffness: f64,
     /// Where the place is when the step starts and when it ends, in m.
     pub places: [DVec3; 2],
+    /// Whether it goes where hair takes it, as a tie that gathers strands: that it moves is hair's own motion, which what jams goes on with, and nothing that acts.
+    pub follows: bool,
 }
 
 /// What acts on the strands in a step.

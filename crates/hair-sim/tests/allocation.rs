@@ -111,6 +111,7 @@ fn run(
             point: 9,
             stiffness: 2000.0,
             places: [DVec3::new(0.0, -0.1, 0.2); 2],
+            follows: false,
         });
         let surroundings = Surroundings {
             roots: Roots::Head(head(step + 1)),

@@ -171,7 +171,7 @@ fn moved(
     [held * share * drive.dt, rocks * share * drive.dt]
 }
 
-/// How fast the roots, the air at the tip, bodies and anchors go, together, in m/s.
+/// How fast the roots, the air at the tip, bodies and anchors that don't follow hair go, together, in m/s.
 #[inline(always)]
 fn stirred(batch: &Batch, state: &BatchState, (drive, root): (&Drive, &RootMotion)) -> Lane {
     let bodies = drive.speed_of_bodies();
@@ -181,7 +181,7 @@ fn stirred(batch: &Batch, state: &BatchState, (drive, root): (&Drive, &RootMotio
         let wind = batch.particles[batch.count() - 1].wind;
         squares += (air.velocity(state.root + *tip) * wind).length_squared();
     }
-    for own in drive.anchors {
+    for own in drive.anchors.iter().filter(|own| !own.anchor.follows) {
         let [before, now] = own.anchor.places;
         squares[own.lane] += before.distance_squared(now) / (drive.dt * drive.dt);
     }
@@ -246,6 +246,7 @@ mod tests {
             point: 10,
             stiffness: 1e-9,
             places: [tip, tip + DVec3::X * way],
+            follows: false,
         }]
     }
 
@@ -405,13 +406,20 @@ mod tests {
             ..at_rest(&still)
         });
         let by_anchor = left(|_| at_rest(&moved));
+        let follows = moved.map(|own| Anchor {
+            follows: true,
+            ..own
+        });
+        let by_tie = left(|_| at_rest(&follows));
         let [by_body, by_turn, by_growth] = [[goes], [turns], [grows]].map(|bodies| {
             left(|_| Surroundings {
                 colliders: &bodies,
                 ..at_rest(&still)
             })
         });
-        assert!((rests - 1.0).abs() < 1e-9, "{rests}");
+        for left in [rests, by_tie] {
+            assert!((left - 1.0).abs() < 1e-9, "{left}");
+        }
         for left in [by_head, by_air, by_anchor, by_body, by_turn, by_growth] {
             assert!((0.36..0.5).contains(&left), "{left}");
         }

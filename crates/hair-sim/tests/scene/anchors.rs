@@ -10,6 +10,7 @@ fn at_tip(place: DVec3, stiffness: f64) -> Anchor {
         point: 20,
         stiffness,
         places: [place; 2],
+        follows: false,
     }
 }
 
@@ -58,6 +59,7 @@ fn an_anchor_takes_its_point_along() {
         while time < 0.7 {
             let anchors = [Anchor {
                 places: [place(time), place(time + dt)],
+                follows: false,
                 ..at_tip(DVec3::ZERO, 1e6)
             }];
             step(&mut solver, &mut state, &held(&anchors), dt);
@@ -168,6 +170,7 @@ fn what_an_anchor_holds_sleeps_until_that_moves() {
     let others = [
         Anchor {
             places: [place, further],
+            follows: false,
             ..anchors[0]
         },
         at_tip(place, 2e5),

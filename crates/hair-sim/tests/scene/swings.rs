@@ -96,6 +96,7 @@ fn a_tied_tail_swings_out() {
                 point: 4,
                 stiffness: 1e5,
                 places,
+                follows: false,
             }],
             colliders: &[Collider {
                 shape,

@@ -152,6 +152,7 @@ impl Ties {
                     point: member.point,
                     stiffness: STIFFNESS,
                     places: [center + turn * (member.offset - rest); 2],
+                    follows: true,
                 });
             }
         }
