@@ -412,7 +412,7 @@ fn mistakes_in_presets_are_named_with_file_line_and_column() {
 #[test]
 fn wrong_usage_exits_2() {
     let folder = folder();
-    let wrong: [(&[&str], &str); 9] = [
+    let wrong: [(&[&str], &str); 11] = [
         (&["render"], "PRESET"),
         (&["render", "small.ron", "--size", "80"], "WxH"),
         (
@@ -432,6 +432,21 @@ fn wrong_usage_exits_2() {
         (
             &["render", "small.ron", "--set", "hair.base.brightness=9"],
             "a number from 0 to 4",
+        ),
+        (
+            &["render", "small.ron", "--set", "dynamics.step=1e-6"],
+            "--set dynamics.step=1e-6: dynamics.step: expected 0",
+        ),
+        (
+            &[
+                "render",
+                "small.ron",
+                "--set",
+                "dynamics.recall=2",
+                "--set",
+                "dynamics.solver=xpbd",
+            ],
+            "--set dynamics.recall=2: dynamics.recall: solver: xpbd has none",
         ),
         (
             &["render", "small.ron", "--only", "hair.cel"],

@@ -100,14 +100,8 @@ impl Look {
             pass.check()
                 .map_err(|error| StageError::Section { section, error })?;
         }
-        let asked = [
-            ("motion", sections.motion.unsupported()),
-            ("dynamics", sections.dynamics.unsupported()),
-        ];
-        for (section, unsupported) in asked {
-            if let Some((_, message)) = unsupported {
-                return Err(StageError::Unsupported { section, message });
-            }
+        if let Some((section, _, message)) = preset.unsupported() {
+            return Err(StageError::Unsupported { section, message });
         }
         let light = &sections.light;
         let light_direction = direction_from_angles(light.yaw, light.pitch)?;

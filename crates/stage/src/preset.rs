@@ -228,14 +228,22 @@ impl<'r> Preset<'r> {
         if let Some(section) = self.sections.by_name(name) {
             reader.fill(&fields, section, name);
         }
-        if let Some((param, message)) = self.unsupported(name) {
+        if let Some((param, message)) = self.unsupported_of(name) {
             let field = fields.iter().find(|field| field.name == param);
             reader.error(field.map_or(name, |field| field.name), message);
         }
     }
 
-    /// What a section asks for that cannot be: a parameter, and why.
-    fn unsupported(&self, section: &str) -> Option<(&'static str, String)> {
+    /// What the sections ask for that cannot be, as values that go with no others may: the section, its parameter, and why. A preset that was read has
+    /// none, until something is [set](Self::set).
+    pub fn unsupported(&self) -> Option<(&'static str, &'static str, String)> {
+        ["dynamics", "motion"].into_iter().find_map(|section| {
+            let (param, message) = self.unsupported_of(section)?;
+            Some((section, param, message))
+        })
+    }
+
+    fn unsupported_of(&self, section: &str) -> Option<(&'static str, String)> {
         match section {
             "dynamics" => self.sections.dynamics.unsupported(),
             "motion" => self.sections.motion.unsupported(),

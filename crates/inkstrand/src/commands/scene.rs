@@ -175,7 +175,24 @@ impl SceneOptions {
                 .set(name.trim(), value.trim())
                 .map_err(|e| format!("--set {assignment}: {e}"))?;
         }
-        Ok(())
+        let Some((section, param, message)) = preset.unsupported() else {
+            return Ok(());
+        };
+        // The preset had been read without a mistake: what was set makes it one.
+        let last = |is_it: &dyn Fn(&str) -> bool| {
+            let name = |set: &String| {
+                set.split_once('=')
+                    .is_some_and(|(name, _)| is_it(name.trim()))
+            };
+            self.set.iter().rfind(|set| name(set))
+        };
+        let whole = format!("{section}.{param}");
+        let to_blame = last(&|name| name == whole)
+            .or_else(|| last(&|name| name.split_once('.').is_some_and(|(of, _)| of == section)));
+        match to_blame {
+            Some(assignment) => Err(format!("--set {assignment}: {section}.{message}")),
+            None => Ok(()),
+        }
     }
 
     /// Objects have what these options give in presets of their own.
