@@ -18,6 +18,9 @@ impl effects::StrokeEffect for LineChalk {
     }
 
     fn reach(params: &Params) -> effects::Reach {
+        if params.width == 0.0 {
+            return effects::Reach::NOWHERE;
+        }
         effects::Reach {
             clumps: 0.0,
             units: 0.5 * params.width + params.wobble + params.overshoot,

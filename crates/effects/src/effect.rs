@@ -235,6 +235,11 @@ impl Reach {
         clumps: 8.0,
         units: 150.0,
     };
+    /// Where strokes of no width reach: there are none. Lines that only such strokes are drawn on aren't looked for.
+    pub const NOWHERE: Self = Self {
+        clumps: 0.0,
+        units: 0.0,
+    };
 }
 
 /// How many discs a clump is made of: `clump_disc` in `shaders/prelude.wgsl`.

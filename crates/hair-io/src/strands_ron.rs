@@ -159,40 +159,14 @@ struct Sample<'a> {
 ///
 /// When the text is not of the format, or of a newer version. Errors know their line and column.
 pub fn from_text(text: &str) -> Result<(Strands, Option<PointCache>), StrandsRonError> {
+    if let Some((strands, motion)) = written::read(text) {
+        return Ok((strands, Some(motion)));
+    }
     let source = Source { text };
     let document: Document = options()
         .from_str(text)
         .map_err(|e| source.syntax(text, e))?;
-    match document.version {
-        0 => return Err(source.at(text, Problem::Version)),
-        1..=VERSION => {}
-        found => return Err(StrandsRonError::Newer { found }),
-    }
-    if document.strands.is_empty() {
-        return Err(source.at(text, Problem::NoStrands));
-    }
-
-    let mut strands = Strands::new();
-    let mut mirrored = Vec::with_capacity(document.strands.len());
-    let mut ids = HashSet::new();
-    for (index, raw) in document.strands.iter().enumerate() {
-        let strand: Strand = source.parse(raw)?;
-        let id = strand.id.unwrap_or(index as u32);
-        let points = vectors(&strand.points);
-        let mut push = |id: u32, points: &[Vec3]| {
-            if !ids.insert(id) {
-                return Err(source.at(raw.trim().get_ron(), Problem::SameId { id }));
-            }
-            strands
-                .push(id, points, strand.size)
-                .map_err(|e| source.strand(raw, e))
-        };
-        push(id, &points)?;
-        if strand.mirror {
-            push(id | MIRROR, &mirror(&points))?;
-        }
-        mirrored.push(strand.mirror);
-    }
+    let (strands, mirrored) = source.strands(&document)?;
     let motion = source.motion(&document.motion, &strands, &mirrored)?;
     Ok((strands, motion))
 }
@@ -329,6 +303,41 @@ impl<'a> Source<'a> {
             .map_err(|e| self.syntax(raw.get_ron(), e))
     }
 
+    /// The strands of a document, each followed by its mirror image, and of each of the list whether it has one.
+    fn strands(&self, document: &Document<'a>) -> Result<(Strands, Vec<bool>), StrandsRonError> {
+        match document.version {
+            0 => return Err(self.at(self.text, Problem::Version)),
+            1..=VERSION => {}
+            found => return Err(StrandsRonError::Newer { found }),
+        }
+        if document.strands.is_empty() {
+            return Err(self.at(self.text, Problem::NoStrands));
+        }
+
+        let mut strands = Strands::new();
+        let mut mirrored = Vec::with_capacity(document.strands.len());
+        let mut ids = HashSet::new();
+        for (index, raw) in document.strands.iter().enumerate() {
+            let strand: Strand = self.parse(raw)?;
+            let id = strand.id.unwrap_or(index as u32);
+            let points = vectors(&strand.points);
+            let mut push = |id: u32, points: &[Vec3]| {
+                if !ids.insert(id) {
+                    return Err(self.at(raw.trim().get_ron(), Problem::SameId { id }));
+                }
+                strands
+                    .push(id, points, strand.size)
+                    .map_err(|e| self.strand(raw, e))
+            };
+            push(id, &points)?;
+            if strand.mirror {
+                push(id | MIRROR, &mirror(&points))?;
+            }
+            mirrored.push(strand.mirror);
+        }
+        Ok((strands, mirrored))
+    }
+
     /// The error of a strand, at the number it is about.
     fn strand(&self, raw: &'a RawValue, error: StrandError) -> StrandsRonError {
         #[derive(Deserialize)]
@@ -406,3 +415,4 @@ impl<'a> Source<'a> {
 
 #[cfg(test)]
 mod tests;
+mod written;

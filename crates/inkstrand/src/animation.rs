@@ -7,7 +7,7 @@ use png::{
 use render::Picture;
 use std::io::{self, Write};
 use std::path::Path;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 
 /// An animated PNG that grows frame by frame. It repeats for ever.
 pub(crate) struct Animation {
@@ -16,6 +16,8 @@ pub(crate) struct Animation {
     size: [u32; 2],
     transparent: bool,
     before: Option<Vec<u8>>,
+    /// The picture that these are of: it may come again.
+    last: Weak<Picture>,
 }
 
 impl Animation {
@@ -40,22 +42,28 @@ impl Animation {
             size,
             transparent,
             before: None,
+            last: Weak::new(),
         })
     }
 
     /// Adds the next frame: of it what is not as it was.
-    pub fn push(&mut self, picture: &Picture) -> io::Result<()> {
-        let pixels = pixels(picture, self.transparent);
+    pub fn push(&mut self, picture: &Arc<Picture>) -> io::Result<()> {
         let whole = [0, 0, self.size[0], self.size[1]];
-        let [x, y, width, height] = match &self.before {
-            Some(before) => changed(before, &pixels, self.size[0], self.channels()),
-            None => whole,
+        let is_first = self.before.is_none();
+        let (pixels, [x, y, width, height]) = match self.before.take() {
+            Some(before) if self.last.as_ptr() == Arc::as_ptr(picture) => (before, SAME),
+            Some(before) => {
+                let now = pixels(picture, self.transparent);
+                let part = changed(&before, &now, self.size[0], self.channels());
+                (now, part)
+            }
+            None => (pixels(picture, self.transparent), whole),
         };
         if [x, y, width, height] != whole {
             self.writer.reset_frame_position()?;
             self.writer.set_frame_dimension(width, height)?;
             self.writer.set_frame_position(x, y)?;
-        } else if self.before.is_some() {
+        } else if !is_first {
             self.writer.reset_frame_position()?;
             self.writer.reset_frame_dimension()?;
         }
@@ -67,6 +75,7 @@ impl Animation {
         let data: Vec<u8> = rows.flat_map(|row| &row[part.clone()]).copied().collect();
         self.writer.write_image_data(&data)?;
         self.before = Some(pixels);
+        self.last = Arc::downgrade(picture);
         Ok(())
     }
 
@@ -81,7 +90,10 @@ impl Animation {
     }
 }
 
-/// The least rectangle (x, y, width, height) outside of which both pictures are alike; a pixel where they are alike everywhere.
+/// What a frame has of a picture like the one before: a pixel, as it must have some.
+const SAME: [u32; 4] = [0, 0, 1, 1];
+
+/// The least rectangle (x, y, width, height) outside of which both pictures are alike; [`SAME`] where they are alike everywhere.
 fn changed(before: &[u8], now: &[u8], width: u32, channels: usize) -> [u32; 4] {
     let pixels = before
         .chunks_exact(channels)
@@ -92,8 +104,9 @@ fn changed(before: &[u8], now: &[u8], width: u32, channels: usize) -> [u32; 4] {
         let [left, top, right, bottom] = bounds.unwrap_or([x, y, x, y]);
         Some([left.min(x), top.min(y), right.max(x), bottom.max(y)])
     });
-    let [left, top, right, bottom] = bounds.unwrap_or_default();
-    [left, top, right - left + 1, bottom - top + 1]
+    bounds.map_or(SAME, |[left, top, right, bottom]| {
+        [left, top, right - left + 1, bottom - top + 1]
+    })
 }
 
 /// Seconds of a frame as a fraction of small numbers.
@@ -199,16 +212,17 @@ mod tests {
                 }
             })
         };
-        // The same twice, a change, and one at the other end.
-        let pictures = [square(2), square(2), square(4), square(8)];
+        // The same twice, the very same, a change, and one at the other end.
+        let [first, again, other, last] = [2, 2, 4, 8].map(|at| Arc::new(square(at)));
+        let pictures = [first, again.clone(), again, other, last];
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.apng");
-        let mut animation = Animation::new(size, 4, 24.0, true).unwrap();
+        let mut animation = Animation::new(size, 5, 24.0, true).unwrap();
         for picture in &pictures {
             animation.push(picture).unwrap();
         }
         animation.write(&path).unwrap();
-        let expected: Vec<Vec<u8>> = pictures.iter().map(Picture::to_srgb8).collect();
+        let expected: Vec<Vec<u8>> = pictures.iter().map(|own| own.to_srgb8()).collect();
         assert_eq!(shown(&path), expected);
     }
 

@@ -11,7 +11,7 @@ use std::fs::{self, DirEntry};
 use std::io;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 
 /// Where pictures go.
 pub(crate) struct Output {
@@ -24,8 +24,8 @@ pub(crate) struct Output {
     /// How many frames there are, and how many are shown in a second.
     frames: u32,
     fps: f32,
-    /// The last picture of several, and its bytes: it may come again.
-    last: Option<(Arc<Picture>, Vec<u8>)>,
+    /// The last picture of several, and its bytes: it may come again. Others may have its memory once they are done with it.
+    last: Option<(Weak<Picture>, Vec<u8>)>,
 }
 
 /// What pictures are called.
@@ -143,11 +143,13 @@ impl Output {
         }
         let path = self.path(frame);
         match &self.last {
-            Some((last, bytes)) if Arc::ptr_eq(last, picture) => write_whole(&path, bytes),
+            Some((last, bytes)) if last.as_ptr() == Arc::as_ptr(picture) => {
+                write_whole(&path, bytes)
+            }
             _ => {
                 let bytes = encode(picture, self.transparent)?;
                 write_whole(&path, &bytes)?;
-                self.last = (self.frames > 1).then(|| (picture.clone(), bytes));
+                self.last = (self.frames > 1).then(|| (Arc::downgrade(picture), bytes));
                 Ok(())
             }
         }

@@ -28,6 +28,8 @@ pub(crate) struct Painter {
     is_quiet: bool,
     /// The last picture, and what drew it.
     last: Option<Drawn>,
+    /// Pictures before it, whose memory the next one may have when nobody holds them any more.
+    shown: Vec<Arc<Picture>>,
 }
 
 struct Drawn {
@@ -60,6 +62,7 @@ impl Painter {
             cpu: None,
             is_quiet,
             last: None,
+            shown: Vec::new(),
         };
         if painter.card.is_none() {
             painter.cpu()?;
@@ -229,9 +232,18 @@ impl Painter {
 
     /// Lets the CPU draw in the memory of a picture that is written already.
     fn reuse(&mut self, last: Option<Drawn>) {
-        let last = last.and_then(|last| Arc::into_inner(last.picture));
-        if let (Some(cpu), Some(picture)) = (&mut self.cpu, last) {
+        let Some(cpu) = &mut self.cpu else { return };
+        // The last one may be on its way to its file; the one before it is there.
+        self.shown.extend(last.map(|last| last.picture));
+        let is_free = |picture: &Arc<Picture>| Arc::strong_count(picture) == 1;
+        if let Some(free) = self.shown.iter().position(is_free)
+            && let Some(picture) = Arc::into_inner(self.shown.swap_remove(free))
+        {
             cpu.rasterizer.give_back(picture);
+        }
+        // Whoever still holds one keeps it.
+        if self.shown.len() > 1 {
+            self.shown.remove(0);
         }
     }
 

@@ -12,6 +12,7 @@ pub(crate) use load::{check, load};
 pub(crate) use section::NamedKey;
 pub use section::{BODIES, BodyKeySection, BodyOn, BodySection, BodyShape, NamedBody};
 
+use crate::dynamics::Reach;
 use crate::painted::PaintedMesh;
 use crate::posture::Posture;
 use crate::script::turned;
@@ -194,6 +195,29 @@ impl Body {
             now,
             was: changes.then_some(was),
         }
+    }
+
+    /// Whether any of it may be within reach of hair in such a step; rather too often than too seldom.
+    pub fn comes_within(&self, reach: Reach, times: [f64; 2], postures: [&Posture; 2]) -> bool {
+        let (mut radius, mut from_hair) = (0.0_f64, [DVec3::ZERO; 2]);
+        for (from_hair, (time, posture)) in
+            from_hair.iter_mut().zip(times.into_iter().zip(postures))
+        {
+            let Placed { pose, size } = self.at(time, posture);
+            let (middle, own) = match &self.own {
+                Own::Sphere { radius } => (DVec3::ZERO, *radius),
+                Own::Capsule { half, radius } => (DVec3::ZERO, half.length() + radius),
+                Own::Mesh(forms) => (forms.middle(time), forms.radius()),
+            };
+            radius = radius.max(own * size);
+            let [own, hair] = [(pose, middle * size), (posture.head, reach.around)]
+                .map(|(pose, at)| pose.rotation * at + pose.translation);
+            *from_hair = own - hair;
+        }
+        let [start, end] = from_hair;
+        // On the way between two places nothing is nearer than this, however it goes there straight.
+        let nearest = 0.5 * (start.length() + end.length() - start.distance(end));
+        nearest <= reach.radius_m + radius
     }
 
     /// Its shape at the script's own `time` (seconds), so many times as large.

@@ -10,7 +10,7 @@ use crate::preset::{
 use crate::textures::with_textures;
 use effects::preset::LayerSpec;
 use effects::section::Section;
-use effects::{Input, Layer, Parameters, SampleInput, Values, Varied, clump, layer_seed};
+use effects::{Input, Layer, Parameters, Reach, SampleInput, Values, Varied, clump, layer_seed};
 use glam::Vec3;
 use render::{Brush, EdgeChannel, Edges, Head, Light, Order};
 use stroke_path::{Camera, PathKind, direction_from_angles};
@@ -251,6 +251,7 @@ impl Look {
         let edges = |pass: &PassSection| {
             let channel = match pass.edges {
                 EdgesChoice::None => return None,
+                _ if pass.width.curve.iter().all(|(_, width)| *width == 0.0) => return None,
                 EdgesChoice::Level => EdgeChannel::Level,
                 EdgesChoice::Strand => EdgeChannel::Strand,
                 EdgesChoice::Object => EdgeChannel::Object,
@@ -353,7 +354,10 @@ fn line_sets(preset: &Preset, layers: &[Layer]) -> Result<Vec<LineSet>, StageErr
     for lines in &preset.lines {
         let section = &lines.section;
         let own = section.name.as_deref().unwrap_or_default();
-        let draws = |layer: &&Layer| Names(layer.on.as_deref().unwrap_or_default()).have(own);
+        let draws = |layer: &&Layer| {
+            Names(layer.on.as_deref().unwrap_or_default()).have(own)
+                && layer.program.reach() != Reach::NOWHERE
+        };
         let layers: Vec<Layer> = layers.iter().filter(draws).cloned().collect();
         if layers.is_empty() {
             continue;

@@ -207,7 +207,29 @@ proptest! {
         let samples: Vec<_> = times.iter().map(|&t| (t as f32 / 24.0, moved(t as f32))).collect();
         let motion = PointCache::new(samples).ok();
         let text = to_text(&strands, motion.as_ref());
-        prop_assert_eq!(from_text(&text).unwrap(), (strands, motion));
+        // As it is written, and as somebody has edited it, which is read as RON.
+        prop_assert_eq!(written::read(&text).is_some(), motion.is_some());
+        let edited = text.replace(",(", ", (") + "// edited";
+        prop_assert_eq!(written::read(&edited), None);
+        for text in [text, edited] {
+            prop_assert_eq!(from_text(&text).unwrap(), (strands.clone(), motion.clone()));
+        }
+    }
+
+    /// What is cut short or has another number of anything is no bake as it is written, and RON tells what is wrong with it.
+    #[test]
+    fn what_is_wrong_in_a_bake_is_told(strands in groom(), at in 0.0..1.0) {
+        let samples = [0.0, 0.5].map(|time| (time, strands.points().to_vec()));
+        let motion = PointCache::new(samples.to_vec()).unwrap();
+        let text = to_text(&strands, Some(&motion));
+        // The last line is needed, the end of that isn't.
+        let cut = &text[..(at * (text.len() - 3) as f64) as usize];
+        prop_assert!(written::read(cut).is_none() && from_text(cut).is_err());
+        let from = text.rfind("(time:").unwrap();
+        for (part, other) in [("0.5,", "-0.5,"), ("[(", "[(0.0,0.0,0.0),("), ("(time:", "(tide:"), ("[(", "[(inf,0.0,0.0),(")] {
+            let wrong = text[..from].to_owned() + &text[from..].replacen(part, other, 1);
+            prop_assert!(written::read(&wrong).is_none() && from_text(&wrong).is_err(), "{}", wrong);
+        }
     }
 
     #[test]

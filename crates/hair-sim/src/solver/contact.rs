@@ -13,7 +13,7 @@ mod path;
 
 use glam::DVec3;
 
-use crate::lanes::{LANES, Lane, Mask, Sym3, Vec3};
+use crate::lanes::{Lane, Mask, Sym3, Vec3};
 
 use super::{
     batch::{Batch, BatchState, CREEP},
@@ -43,7 +43,10 @@ const TOUCH: f64 = 2e-5;
 /// Where hair may be pressed between two bodies, a particle that one pushes out by more than this in a step, in m, leaves it no faster than it did before. A stage that puts it elsewhere says
 /// that it goes on there, more than twice as fast as it took to get there: from one to the other it would be thrown twice as fast each time.
 const PUSHED: f64 = 8e-3;
-const FREELY: Lane = Lane([f64::INFINITY; LANES]);
+
+/// What touches something leaves it no faster than this, in m/s, or than it did before: a stage that stops what comes fast turns its speed about. Between an arm and a side a tip bounced twice as
+/// fast each time. What is recalled gets over a shoulder by as much.
+const REBOUNDS: f64 = 1.5;
 
 /// Hair that is beside a figure is pushed towards it by no more than this in a step, in m, where another body comes: pushed all the way at once it trembles more under that.
 const REACHED: f64 = 5e-3;
@@ -89,7 +92,7 @@ impl Contact {
         creep: Lane::ZERO,
         press: Lane::ZERO,
         bound: Lane::ZERO,
-        leaves: FREELY,
+        leaves: Lane::ZERO,
     };
 
     /// As where no strand has a plane.
@@ -116,11 +119,7 @@ impl Contact {
         let velocity = state.v[k].get(lane) - flow;
         let out = velocity.dot(normal);
         let is_pushed = surface.start - normal.dot(state.y[k].get(lane)) > PUSHED;
-        self.leaves[lane] = if is_pushed {
-            out.max(0.0)
-        } else {
-            FREELY[lane]
-        };
+        self.leaves[lane] = out.max(if is_pushed { 0.0 } else { REBOUNDS });
         let sliding = (velocity - normal * out).length();
         let bound = if creep > 0.0 { press } else { 0.0 };
         let sticks = bound > 0.0 && sliding <= creep;

@@ -23,6 +23,8 @@ pub(crate) struct Forms {
     end: End,
     /// The side of a cell of their distances, m.
     cell: f64,
+    /// No place of a form is farther from its middle, m.
+    radius: f64,
 }
 
 /// What comes after the last of some forms.
@@ -146,8 +148,16 @@ impl Forms {
         // Of the largest form, so that none of them takes more cells.
         let sides = forms.iter().map(Form::longest_side);
         let longest = sides.map(f64::from).fold(1e-6, f64::max);
+        let farthest = |form: &Form| {
+            let squares = form
+                .positions
+                .iter()
+                .map(|p| p.distance_squared(form.middle));
+            f64::from(squares.fold(0.0, f32::max)).sqrt()
+        };
         let forms = Self {
             cell: longest / CELLS,
+            radius: forms.iter().map(farthest).fold(0.0, f64::max),
             forms,
             rate,
             end,
@@ -174,6 +184,11 @@ impl Forms {
         let (from, to, share) = self.between(time);
         let [from, to] = [from, to].map(|form| self.forms[form].middle.as_dvec3());
         from.lerp(to, share)
+    }
+
+    /// How far no place of any form is from [its middle](Self::middle), m.
+    pub fn radius(&self) -> f64 {
+        self.radius
     }
 
     /// The distances of a form about [its middle](Self::middle).

@@ -1,11 +1,13 @@
 //! What hair cannot enter: the head, which turns, the shoulders, which don't, and the bodies of a preset and its script.
 
+use crate::bodies::Body;
 use crate::posture::Posture;
 use crate::script::MotionScript;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use hair_io::Mesh;
 use hair_sim::{Collider, Shape, SignedDistance};
 use render::Head;
+use std::sync::Arc;
 
 /// Heights from the head's middle, in head heights: the head's body ends at the one below, the
 /// shoulders' at the other, inside the neck and below the chin, which is at a half.
@@ -23,6 +25,30 @@ pub(crate) struct BodyMesh<'m> {
     pub mesh: &'m Mesh,
     /// Whether it may be of several pieces, as a character's is: hair, skin and clothes.
     pub has_pieces: bool,
+}
+
+/// How far hair comes from a place of its head, the room that it keeps from bodies and all.
+#[derive(Clone, Copy)]
+pub(crate) struct Reach {
+    /// The place, on a head at rest.
+    pub around: DVec3,
+    pub radius_m: f64,
+}
+
+impl Reach {
+    /// Of strands by their points, root first: none comes farther from its root than it is long, but for the little by which links stretch.
+    pub fn of<'s>(strands: impl Iterator<Item = &'s [Vec3]>, head: Head) -> Self {
+        let reach = |points: &[Vec3]| {
+            let from_root = points.first()?.distance(head.center);
+            let links = points.windows(2).map(|link| link[0].distance(link[1]));
+            Some(from_root + links.sum::<f32>())
+        };
+        let farthest = strands.filter_map(reach).fold(0.0, f32::max);
+        Self {
+            around: head.center.as_dvec3(),
+            radius_m: 1.1 * f64::from(farthest) + 0.25 * f64::from(head.height_m),
+        }
+    }
 }
 
 /// Distances from head and shoulders.
@@ -59,12 +85,14 @@ impl Bodies {
         usize::from(self.head.is_some()) + usize::from(self.shoulders.is_some())
     }
 
-    /// All bodies in a step of this script between two times (seconds), at which the figure stands so.
+    /// All bodies in a step of this script between two times (seconds), at which the figure stands so, but for a scene's own that are out of `reach`, if
+    /// one is given: hair that never meets them needs no distances of theirs, and sleeps as they move.
     pub fn colliders<'a>(
         &'a self,
         script: &'a MotionScript,
         times: [f64; 2],
         [before, now]: [&Posture<'a>; 2],
+        reach: Option<Reach>,
     ) -> Vec<Collider<'a>> {
         let grids = [
             (&self.head, [before.head, now.head]),
@@ -86,8 +114,11 @@ impl Bodies {
             colliders.extend(skeleton.colliders([from, to], [before.figure, now.figure]));
         }
         let times = times.map(|time| script.within(time));
-        let own = script.bodies.iter();
-        colliders.extend(own.map(|body| body.collider(times, [before, now])));
+        let postures = [before, now];
+        let is_near =
+            |body: &&Arc<Body>| reach.is_none_or(|reach| body.comes_within(reach, times, postures));
+        let own = script.bodies.iter().filter(is_near);
+        colliders.extend(own.map(|body| body.collider(times, postures)));
         colliders
     }
 }

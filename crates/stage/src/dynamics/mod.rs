@@ -30,7 +30,7 @@ use crate::posture::Posture;
 use crate::script::HeadPose;
 use crate::skeleton::after;
 use bodies::GAP_M;
-pub(crate) use bodies::{Bodies, BodyMesh};
+pub(crate) use bodies::{Bodies, BodyMesh, Reach};
 use carried::Carried;
 pub(crate) use feel::ZoneDynamics;
 use feel::{Feel, Strand};
@@ -111,6 +111,8 @@ pub(crate) struct Dynamics {
     /// Where the head jumps.
     seams: Seams,
     bodies: Arc<Bodies>,
+    /// How far all of this hair comes.
+    reach: Reach,
     head: Head,
     placement: Placement,
     gravity: DVec3,
@@ -249,6 +251,7 @@ impl Dynamics {
             on_head: (0..moves.len()).filter(|&point| !moves[point]).collect(),
             gaps: Vec::new(),
             bodies,
+            reach: Reach::of((0..all.len()).map(|strand| all.strand(strand)), hair.head),
             ties,
             is_asleep: false,
             seams: Seams::default(),
@@ -366,7 +369,8 @@ impl Dynamics {
         let start = self.time_of(0);
         let first = self.pose_at(start, driver);
         let styled = self.styled(driver);
-        let colliders = (self.bodies).colliders(driver.script, [start; 2], [&styled; 2]);
+        let colliders =
+            (self.bodies).colliders(driver.script, [start; 2], [&styled; 2], Some(self.reach));
         let of_figure = self.of_figure();
         (self.strands).restart((styled.head, &colliders, of_figure), first)?;
         self.ties.restart();
@@ -480,7 +484,7 @@ impl Dynamics {
         driver: Driver<'a>,
     ) -> Vec<Placed<'a>> {
         let bodies = &self.bodies;
-        let colliders = bodies.colliders(driver.script, [time; 2], [posture; 2]);
+        let colliders = bodies.colliders(driver.script, [time; 2], [posture; 2], Some(self.reach));
         colliders.iter().map(Placed::new).collect()
     }
 
@@ -581,9 +585,10 @@ impl Dynamics {
                 [-self.step, self.step].map(|by| self.pose_beside(time + by, end, driver));
             Acceleration::between([earlier, pose, later], self.step)
         });
-        let mut colliders =
-            self.bodies
-                .colliders(driver.script, [begin, end], [0, 1].map(|i| &postures[i]));
+        // Over a seam each is told its own jump.
+        let reach = seam.is_none().then_some(self.reach);
+        let both = [0, 1].map(|i| &postures[i]);
+        let mut colliders = (self.bodies).colliders(driver.script, [begin, end], both, reach);
         if let Some(seam) = &seam {
             self.carry_over(seam, driver, (&mut colliders, &mut streams));
             self.ties.carry(seam.way());

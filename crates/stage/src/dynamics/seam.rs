@@ -100,7 +100,7 @@ impl Dynamics {
         (bodies, streams): (&mut [Collider], &mut [Stream]),
     ) {
         let [before, next] = &seam.postures;
-        let jumps = (self.bodies).colliders(driver.script, seam.times, [before, next]);
+        let jumps = (self.bodies).colliders(driver.script, seam.times, [before, next], None);
         for (body, jump) in bodies.iter_mut().zip(jumps) {
             body.before = after(body.before, way([jump.before, jump.now]));
         }

@@ -114,6 +114,28 @@ fn hair_styled_in_a_body_lies_around_it_and_stays_there() {
     }
 }
 
+/// Hair has the bits that it has without bodies which it never comes to, however they move, and sleeps while they do.
+#[test]
+fn bodies_out_of_reach_cost_nothing() {
+    let nod = "moves: [(move: nod, start: 0.1, length: 0.4, angle: 20)]";
+    let far = "bodies: [(name: \"a\", at: (9, 0, 0)), (name: \"b\", shape: capsule, at: (0, -9, 1), to: (0, -9, -1), radius: 2)], \
+               body_keys: [(body: \"a\", time: 0), (body: \"a\", time: 30, at: (9, 9, 0))]";
+    let scene = |script: String| Given::new(TAIL, &script, "").scene().unwrap();
+    let without = scene(format!("(version: 1, {nod})"));
+    let with = scene(format!("(version: 1, {nod}, {far})"));
+    let [mut one, mut other] = [(); 2].map(|()| Motion::new());
+    for time in [0.0, 0.3, 0.6, 1.0] {
+        assert_eq!(
+            points(&without, &mut one, time),
+            points(&with, &mut other, time),
+            "{time}"
+        );
+    }
+    points(&with, &mut other, 15.0);
+    let stats = other.simulated();
+    assert!(stats.strands == 0 && stats.asleep > 0, "{stats:?}");
+}
+
 #[test]
 fn a_body_that_moves_takes_hair_along_and_what_it_swallows_comes_out() {
     let script = |keys: &str| {

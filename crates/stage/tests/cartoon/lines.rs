@@ -1,6 +1,6 @@
 //! Lines by image filters on hair: rows 8 and 9.
 
-use super::shown::{Shown, preset, shown, toon};
+use super::shown::{Shown, preset, shown, stage, toon};
 use glam::Vec3;
 
 /// Row 9: lines whose width grows from nothing at 0.4 of the strand to all of it at 0.65 leave the crown, by 60 % within a quarter of a head height
@@ -137,4 +137,24 @@ fn wide_lines_cover_what_is_transparent() {
             i / 240
         );
     }
+}
+
+/// Lines of no width are no lines: samples aren't compared for them.
+#[test]
+fn lines_of_no_width_cost_nothing() {
+    let text = preset("shin-levels.ron");
+    let passes = |width: &str| {
+        let mut stage = stage(&text, &[("passes.1.width", width)]);
+        stage.frame().unwrap().passes.len()
+    };
+    assert_eq!(passes("0"), 0);
+    for some in ["1", "(curve: [(0, 0), (1, 1)])"] {
+        assert_eq!(passes(some), 1, "{some}");
+    }
+    let small = ("scene.size", "(64, 64)");
+    let pixels = |setting| shown(&text, &[small, setting]).picture.pixels;
+    assert_eq!(
+        pixels(("passes.1.width", "0")),
+        pixels(("passes.1.edges", "none"))
+    );
 }

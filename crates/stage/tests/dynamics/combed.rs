@@ -68,3 +68,26 @@ fn what_an_arm_presses_against_a_back_stays_there() {
         }
     }
 }
+
+/// A tip between an arm of hers and her side bounced from one to the other, and shot off at 7.6 m/s, in a look as it comes with inkstrand.
+#[test]
+fn what_is_between_an_arm_and_a_side_is_not_thrown() {
+    for (fps, script, most) in [
+        (
+            120.0,
+            "(version: 1, moves: [(move: turn, start: 0.2, length: 0.4, angle: 60)])",
+            3.0,
+        ),
+        (
+            24.0,
+            "(version: 1, moves: [(move: turn, start: 0.2, length: 0.4, angle: 60), (move: turn, start: 1.2, length: 0.4, angle: -60)], \
+             winds: [(start: 0.5, length: 1, speed: 6, gusts: 0, yaw: 0)])",
+            2.5,
+        ),
+    ] {
+        let ways = ways("blond-fantasy", script, &[], fps, 1.5);
+        let fastest = fps * ways.into_iter().fold(0.0, f32::max);
+        println!("{fps} frames a second: {fastest:.1} m/s at most");
+        assert!(fastest > 1.0 && fastest < most, "{fps}: {fastest}");
+    }
+}

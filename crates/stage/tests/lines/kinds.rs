@@ -72,12 +72,18 @@ fn lines_are_black_where_they_are_seen_and_hair_hides_them() {
 #[test]
 fn what_no_layer_draws_costs_nothing() {
     let lines = "(name: \"rim\", of: \"ball\")";
-    let mut with = stage("a", lines, "").unwrap();
     let mut without = stage("a", "", "").unwrap();
-    let (with, without) = (with.frame().unwrap(), without.frame().unwrap());
-    assert_eq!(with.objects.len(), 1);
-    assert!(with.from_ends.is_empty() && with.rest_positions.is_empty());
-    assert_eq!(drawn(&with).pixels, drawn(&without).pixels);
+    let without = drawn(&without.frame().unwrap()).pixels;
+    let of_no_width = ["ink", "chalk"].map(|kind| {
+        format!("(effect: \"line.{kind}\", on: \"rim\", params: (width: 0, wobble: 0.5))")
+    });
+    for layers in ["", &of_no_width[0], &of_no_width[1]] {
+        let mut with = stage("a", lines, layers).unwrap();
+        let with = with.frame().unwrap();
+        assert_eq!(with.objects.len(), 1, "{layers}");
+        assert!(with.from_ends.is_empty() && with.rest_positions.is_empty());
+        assert_eq!(drawn(&with).pixels, without);
+    }
 }
 
 #[test]

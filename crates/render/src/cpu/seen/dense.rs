@@ -14,8 +14,11 @@ use stroke_path::PathRun;
 const LEAST_LAYERS: f32 = 32.0;
 
 /// The same where there are so many links of clumps that what is hidden would take long.
-const LEAST_OF_MANY: f32 = 8.0;
+const LEAST_OF_MANY: f32 = 18.0;
 const MANY: usize = 1 << 16;
+
+/// To put a link into the cover by samples takes as long as it covers samples, and spares no more than its strokes take: it may cover so many for each of these.
+const MOST_SAMPLES: f32 = 12.0;
 
 /// Whether a layer's strokes are their clumps, so that nothing is seen through them.
 fn is_cover(layer: &Layer) -> bool {
@@ -64,7 +67,16 @@ pub(super) fn covers(
         false => LEAST_OF_MANY,
     };
     let is_dense = area > least * around.x * around.y;
-    if !is_dense {
+    let radius_px = radii / count as f32;
+    let is_by_samples = radius_px < WIDE_PX && !samples.is_empty();
+    let strokes = |object: &Object| -> u32 {
+        let layers = object.layers.iter();
+        layers.map(|layer| layer.program.instances()).sum()
+    };
+    let strokes = frame.objects.iter().map(strokes).max().unwrap_or(0);
+    let most = MOST_SAMPLES * strokes as f32 * count as f32;
+    let is_worth_it = !is_by_samples || area * samples.len() as f32 <= most;
+    if !(is_dense && is_worth_it) {
         return false;
     }
     let edge_depth_m = match frame.order {
@@ -80,14 +92,13 @@ pub(super) fn covers(
             draws && !strand.is_left_out_by(number)
         })
     };
-    let radius_px = radii / count as f32;
     let mut parts = Vec::new();
     let mut of_runs = Vec::new();
     for object in &frame.objects {
         let start = runs.partition_point(|run| run.joints.start < object.joints.start);
         let end = runs.partition_point(|run| run.joints.end <= object.joints.end);
         let own = &runs[start..end.max(start)];
-        if radius_px < WIDE_PX && !samples.is_empty() {
+        if is_by_samples {
             let own = own.iter().filter(|run| is_covered(object, run));
             of_runs.extend(own.map(|run| {
                 let ends = usize::from(frame.brush == Brush::Semicircle);
