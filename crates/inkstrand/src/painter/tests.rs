@@ -42,6 +42,7 @@ fn on_card(may_fall_back: bool) -> Option<(Painter, impl FnOnce())> {
         cpu: None,
         is_quiet: true,
         last: None,
+        shown: Vec::new(),
     };
     Some((painter, move || device.destroy()))
 }
