@@ -166,7 +166,7 @@ pub fn from_text(text: &str) -> Result<(Strands, Option<PointCache>), StrandsRon
     let document: Document = options()
         .from_str(text)
         .map_err(|e| source.syntax(text, e))?;
-    let (strands, mirrored) = source.strands(&document)?;
+    let (strands, mirrored) = source.strands(document.version, &document.strands)?;
     let motion = source.motion(&document.motion, &strands, &mirrored)?;
     Ok((strands, motion))
 }
@@ -303,21 +303,25 @@ impl<'a> Source<'a> {
             .map_err(|e| self.syntax(raw.get_ron(), e))
     }
 
-    /// The strands of a document, each followed by its mirror image, and of each of the list whether it has one.
-    fn strands(&self, document: &Document<'a>) -> Result<(Strands, Vec<bool>), StrandsRonError> {
-        match document.version {
+    /// The strands of a list in a file of this version, each followed by its mirror image, and of each of the list whether it has one.
+    fn strands(
+        &self,
+        version: u32,
+        list: &[&'a RawValue],
+    ) -> Result<(Strands, Vec<bool>), StrandsRonError> {
+        match version {
             0 => return Err(self.at(self.text, Problem::Version)),
             1..=VERSION => {}
             found => return Err(StrandsRonError::Newer { found }),
         }
-        if document.strands.is_empty() {
+        if list.is_empty() {
             return Err(self.at(self.text, Problem::NoStrands));
         }
 
         let mut strands = Strands::new();
-        let mut mirrored = Vec::with_capacity(document.strands.len());
+        let mut mirrored = Vec::with_capacity(list.len());
         let mut ids = HashSet::new();
-        for (index, raw) in document.strands.iter().enumerate() {
+        for (index, raw) in list.iter().enumerate() {
             let strand: Strand = self.parse(raw)?;
             let id = strand.id.unwrap_or(index as u32);
             let points = vectors(&strand.points);

@@ -62,6 +62,24 @@ fn a_bake_draws_the_same_pictures_as_the_simulation() {
 }
 
 #[test]
+fn what_is_left_of_a_loop_is_told() {
+    let folder = folder();
+    let script = "(version: 1, period: 0.5, loop: true, winds: [(speed: 6)])";
+    fs::write(folder.path().join("walk.motion.ron"), script).unwrap();
+    let draw = ["render", "-o", "s.png", "--size", "12x9", "--samples", "1"];
+    let bake = ["simulate", "-o", "b.strands.ron", "--frames", "0-11"];
+    let told = [&draw[..], &bake[..]].map(|line| {
+        let assert = inkstrand(&folder, line).assert().success();
+        let said = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
+        let told = said
+            .lines()
+            .find(|line| line.starts_with("loop: 12 frames; after"));
+        told.map(str::to_owned)
+    });
+    assert!(told[0].is_some() && told[0] == told[1], "{told:?}");
+}
+
+#[test]
 fn a_preset_without_hair_has_no_bake() {
     let folder = tempfile::tempdir().unwrap();
     Command::cargo_bin("inkstrand")

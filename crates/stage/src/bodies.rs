@@ -217,7 +217,9 @@ impl Body {
         let [start, end] = from_hair;
         // On the way between two places nothing is nearer than this, however it goes there straight.
         let nearest = 0.5 * (start.length() + end.length() - start.distance(end));
-        nearest <= reach.radius_m + radius
+        // What is no number is for the solver to tell.
+        let is_beyond = nearest > reach.radius_m + radius;
+        !is_beyond
     }
 
     /// Its shape at the script's own `time` (seconds), so many times as large.

@@ -230,6 +230,8 @@ proptest! {
             let wrong = text[..from].to_owned() + &text[from..].replacen(part, other, 1);
             prop_assert!(written::read(&wrong).is_none() && from_text(&wrong).is_err(), "{}", wrong);
         }
+        let twice = text.replacen("strands: [", "motion: [], strands: [", 1);
+        prop_assert!(written::read(&twice).is_none() && from_text(&twice).is_err());
     }
 
     #[test]

@@ -3,19 +3,33 @@
 
 use glam::Vec3;
 use hair_sim::{PointCache, Strands};
+use ron::value::RawValue;
+use serde::Deserialize;
 
-use super::{Document, Source, mirror, options};
+use super::{Source, mirror, options};
 
 /// Where the list of samples begins.
 const MOTION: &str = "\n], motion: [\n";
+
+/// What is before it.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename = "Strands")]
+struct Head<'a> {
+    version: u32,
+    #[serde(borrow)]
+    strands: Vec<&'a RawValue>,
+}
 
 /// Strands and motion of a text that is written so, and has no mistake. Of any other, as of one that somebody has edited, nothing: then it is read as RON, which
 /// tells what is wrong.
 pub(super) fn read(text: &str) -> Option<(Strands, PointCache)> {
     let (head, motion) = text.split_once(MOTION)?;
     let head = format!("{head}\n])");
-    let document: Document = options().from_str(&head).ok()?;
-    let (strands, mirrored) = Source { text: &head }.strands(&document).ok()?;
+    let Head {
+        version,
+        strands: list,
+    } = options().from_str(&head).ok()?;
+    let (strands, mirrored) = Source { text: &head }.strands(version, &list).ok()?;
     let mut lines = motion.lines();
     let mut samples = Vec::new();
     loop {

@@ -44,8 +44,8 @@ const TOUCH: f64 = 2e-5;
 /// that it goes on there, more than twice as fast as it took to get there: from one to the other it would be thrown twice as fast each time.
 const PUSHED: f64 = 8e-3;
 
-/// What touches something leaves it no faster than this, in m/s, or than it did before: a stage that stops what comes fast turns its speed about. Between an arm and a side a tip bounced twice as
-/// fast each time. What is recalled gets over a shoulder by as much.
+/// What has a plane before it, of a body or of other hair, leaves that no faster than this, in m/s, or than it did before: a stage that stops what comes fast turns its speed about. Between an arm and
+/// a side a tip bounced twice as fast each time. What is recalled gets over a shoulder by as much.
 const REBOUNDS: f64 = 1.5;
 
 /// Hair that is beside a figure is pushed towards it by no more than this in a step, in m, where another body comes: pushed all the way at once it trembles more under that.

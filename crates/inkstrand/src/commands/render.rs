@@ -1,7 +1,7 @@
 //! `inkstrand render`: a preset to pictures.
 
 use super::progress::{Bar, Watch};
-use super::scene::{Source, check, check_kind, check_named};
+use super::scene::{Source, check, check_kind, check_named, say_returns};
 use crate::Failure;
 use crate::cli::{Background, Numbers, RenderOptions};
 use crate::output::Output;
@@ -13,7 +13,7 @@ use crate::stats::{FrameStats, Lines};
 use effects::Registry;
 use hair_io::try_to_write;
 use render::Picture;
-use stage::{Files, Preset, SceneSection, Sections, Stage};
+use stage::{Files, Preset, SceneSection, Sections};
 use std::io;
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -145,18 +145,6 @@ fn draw(
         say(&written);
     }
     Ok(written)
-}
-
-/// How well hair came back to where it was, where it goes round.
-fn say_returns(stage: &Stage) {
-    for returned in stage.returns() {
-        let [left, mean] =
-            [returned.left_m, returned.mean_left_m].map(|left_m| left_m / stage.head().height_m);
-        say(format_args!(
-            "loop: {} frames; after {} rounds hair is within {left:.4} head heights of the round before, {mean:.4} on average, and the rest is blended",
-            returned.frames, returned.rounds
-        ));
-    }
 }
 
 /// The first frame to draw and the last; of one moment the frame that is nearest to it.

@@ -167,6 +167,7 @@ impl SceneOptions {
             preset.sections.hair.from = HairFrom::Character;
         }
         check(preset)?;
+        let mut to_blame = None;
         for assignment in &self.set {
             let (name, value) = assignment.split_once('=').ok_or_else(|| {
                 format!("--set {assignment}: it takes LAYER.PARAM=VALUE or seed=VALUE")
@@ -174,24 +175,15 @@ impl SceneOptions {
             preset
                 .set(name.trim(), value.trim())
                 .map_err(|e| format!("--set {assignment}: {e}"))?;
+            // The preset had been read without a mistake. What one sets the next may put right.
+            let unsupported = preset.unsupported();
+            to_blame = unsupported.and(to_blame.or(Some(assignment)));
         }
-        let Some((section, param, message)) = preset.unsupported() else {
-            return Ok(());
-        };
-        // The preset had been read without a mistake: what was set makes it one.
-        let last = |is_it: &dyn Fn(&str) -> bool| {
-            let name = |set: &String| {
-                set.split_once('=')
-                    .is_some_and(|(name, _)| is_it(name.trim()))
-            };
-            self.set.iter().rfind(|set| name(set))
-        };
-        let whole = format!("{section}.{param}");
-        let to_blame = last(&|name| name == whole)
-            .or_else(|| last(&|name| name.split_once('.').is_some_and(|(of, _)| of == section)));
-        match to_blame {
-            Some(assignment) => Err(format!("--set {assignment}: {section}.{message}")),
-            None => Ok(()),
+        match (preset.unsupported(), to_blame) {
+            (Some((section, _, message)), Some(assignment)) => {
+                Err(format!("--set {assignment}: {section}.{message}"))
+            }
+            _ => Ok(()),
         }
     }
 
@@ -214,6 +206,27 @@ impl SceneOptions {
                 "{option}: this preset draws objects, and each has that in a preset of its own, such as {own}"
             ))
         })
+    }
+}
+
+/// Blended over a loop, more than this, in head heights, is seen.
+const SEEN_IN_LOOPS: f32 = 0.5;
+
+/// How well hair came back to where it was, where it goes round.
+pub(super) fn say_returns(stage: &Stage) {
+    for returned in stage.returns() {
+        let [left, mean] =
+            [returned.left_m, returned.mean_left_m].map(|left_m| left_m / stage.head().height_m);
+        let advice = match left > SEEN_IN_LOOPS {
+            true => {
+                ", which is seen: more damping, drag or hold leave less, and so does a longer period"
+            }
+            false => "",
+        };
+        say(format_args!(
+            "loop: {} frames; after {} rounds hair is within {left:.4} head heights of the round before, {mean:.4} on average, and the rest is blended{advice}",
+            returned.frames, returned.rounds
+        ));
     }
 }
 

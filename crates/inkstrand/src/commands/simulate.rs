@@ -1,7 +1,7 @@
 //! `inkstrand simulate`: a sequence's strands, simulated once.
 
 use super::progress::Bar;
-use super::scene::Source;
+use super::scene::{Source, say_returns};
 use crate::Failure;
 use crate::cli::SimulateOptions;
 use crate::paths::{file_name, is_same};
@@ -55,6 +55,7 @@ pub(crate) fn simulate(options: &SimulateOptions, registry: &Registry) -> Result
     file.write_all(stage.bake_text(bake)?.as_bytes())?;
     file.finish()?;
     if !options.quiet {
+        say_returns(&stage);
         say(format_args!("wrote {}", options.output.display()));
     }
     Ok(())

@@ -78,8 +78,10 @@ fn wrong_usage_exits_2() {
                 "dynamics.recall=2",
                 "--set",
                 "dynamics.solver=xpbd",
+                "--set",
+                "dynamics.friction=0.5",
             ],
-            "--set dynamics.recall=2: dynamics.recall: solver: xpbd has none",
+            "--set dynamics.solver=xpbd: dynamics.recall: solver: xpbd has none",
         ),
         (
             &["render", "small.ron", "--only", "hair.cel"],

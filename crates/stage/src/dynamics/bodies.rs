@@ -27,6 +27,9 @@ pub(crate) struct BodyMesh<'m> {
     pub has_pieces: bool,
 }
 
+/// No strand keeps farther from a body, m.
+const MOST_ROOM_M: f64 = 0.1;
+
 /// How far hair comes from a place of its head, the room that it keeps from bodies and all.
 #[derive(Clone, Copy)]
 pub(crate) struct Reach {
@@ -46,7 +49,7 @@ impl Reach {
         let farthest = strands.filter_map(reach).fold(0.0, f32::max);
         Self {
             around: head.center.as_dvec3(),
-            radius_m: 1.1 * f64::from(farthest) + 0.25 * f64::from(head.height_m),
+            radius_m: 1.1 * f64::from(farthest) + 0.25 * f64::from(head.height_m) + MOST_ROOM_M,
         }
     }
 }
@@ -85,14 +88,40 @@ impl Bodies {
         usize::from(self.head.is_some()) + usize::from(self.shoulders.is_some())
     }
 
-    /// All bodies in a step of this script between two times (seconds), at which the figure stands so, but for a scene's own that are out of `reach`, if
-    /// one is given: hair that never meets them needs no distances of theirs, and sleeps as they move.
+    /// Which of the script's bodies may come within reach of hair in such a step as [`Self::colliders`] are of: what never meets others needs no distances of theirs, and sleeps as they move.
+    /// All, where there is no figure: the first is taken for it.
+    pub fn near(
+        &self,
+        reach: Reach,
+        script: &MotionScript,
+        times: [f64; 2],
+        postures: [&Posture; 2],
+    ) -> Vec<bool> {
+        let has_figure = self.of_figure() > 0;
+        let times = times.map(|time| script.within(time));
+        let is_near = |body: &Arc<Body>| !has_figure || body.comes_within(reach, times, postures);
+        script.bodies.iter().map(is_near).collect()
+    }
+
+    /// [`Self::colliders`] of what is [`near`](Self::near).
+    pub fn within<'a>(
+        &'a self,
+        reach: Reach,
+        script: &'a MotionScript,
+        times: [f64; 2],
+        postures: [&Posture<'a>; 2],
+    ) -> Vec<Collider<'a>> {
+        let near = self.near(reach, script, times, postures);
+        self.colliders(script, times, postures, &near)
+    }
+
+    /// The bodies in a step of this script between two times (seconds), at which the figure stands so; of the script's own those that are `near`.
     pub fn colliders<'a>(
         &'a self,
         script: &'a MotionScript,
         times: [f64; 2],
         [before, now]: [&Posture<'a>; 2],
-        reach: Option<Reach>,
+        near: &[bool],
     ) -> Vec<Collider<'a>> {
         let grids = [
             (&self.head, [before.head, now.head]),
@@ -114,11 +143,8 @@ impl Bodies {
             colliders.extend(skeleton.colliders([from, to], [before.figure, now.figure]));
         }
         let times = times.map(|time| script.within(time));
-        let postures = [before, now];
-        let is_near =
-            |body: &&Arc<Body>| reach.is_none_or(|reach| body.comes_within(reach, times, postures));
-        let own = script.bodies.iter().filter(is_near);
-        colliders.extend(own.map(|body| body.collider(times, postures)));
+        let own = script.bodies.iter().zip(near).filter(|(_, near)| **near);
+        colliders.extend(own.map(|(body, _)| body.collider(times, [before, now])));
         colliders
     }
 }

@@ -369,8 +369,7 @@ impl Dynamics {
         let start = self.time_of(0);
         let first = self.pose_at(start, driver);
         let styled = self.styled(driver);
-        let colliders =
-            (self.bodies).colliders(driver.script, [start; 2], [&styled; 2], Some(self.reach));
+        let colliders = (self.bodies).within(self.reach, driver.script, [start; 2], [&styled; 2]);
         let of_figure = self.of_figure();
         (self.strands).restart((styled.head, &colliders, of_figure), first)?;
         self.ties.restart();
@@ -476,15 +475,14 @@ impl Dynamics {
         self.bodies.of_figure().max(1)
     }
 
-    /// All bodies at a time (seconds), at which the figure stands so.
+    /// The bodies within reach at a time (seconds), at which the figure stands so.
     fn bodies_at<'a>(
         &'a self,
         time: f64,
         posture: &Posture<'a>,
         driver: Driver<'a>,
     ) -> Vec<Placed<'a>> {
-        let bodies = &self.bodies;
-        let colliders = bodies.colliders(driver.script, [time; 2], [posture; 2], Some(self.reach));
+        let colliders = (self.bodies).within(self.reach, driver.script, [time; 2], [posture; 2]);
         colliders.iter().map(Placed::new).collect()
     }
 
@@ -585,12 +583,11 @@ impl Dynamics {
                 [-self.step, self.step].map(|by| self.pose_beside(time + by, end, driver));
             Acceleration::between([earlier, pose, later], self.step)
         });
-        // Over a seam each is told its own jump.
-        let reach = seam.is_none().then_some(self.reach);
         let both = [0, 1].map(|i| &postures[i]);
-        let mut colliders = (self.bodies).colliders(driver.script, [begin, end], both, reach);
+        let near = (self.bodies).near(self.reach, driver.script, [begin, end], both);
+        let mut colliders = (self.bodies).colliders(driver.script, [begin, end], both, &near);
         if let Some(seam) = &seam {
-            self.carry_over(seam, driver, (&mut colliders, &mut streams));
+            self.carry_over(seam, driver, &near, (&mut colliders, &mut streams));
             self.ties.carry(seam.way());
         }
         let scene = Surroundings {

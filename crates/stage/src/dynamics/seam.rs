@@ -92,15 +92,16 @@ impl Dynamics {
         }
     }
 
-    /// Carries bodies and streams over a seam from where they are when its step begins.
+    /// Carries bodies, those of the script that are `near`, and streams over a seam from where they are when its step begins.
     pub(super) fn carry_over(
         &self,
         seam: &Seam,
         driver: Driver,
+        near: &[bool],
         (bodies, streams): (&mut [Collider], &mut [Stream]),
     ) {
         let [before, next] = &seam.postures;
-        let jumps = (self.bodies).colliders(driver.script, seam.times, [before, next], None);
+        let jumps = (self.bodies).colliders(driver.script, seam.times, [before, next], near);
         for (body, jump) in bodies.iter_mut().zip(jumps) {
             body.before = after(body.before, way([jump.before, jump.now]));
         }

@@ -118,9 +118,18 @@ fn hair_styled_in_a_body_lies_around_it_and_stays_there() {
 #[test]
 fn bodies_out_of_reach_cost_nothing() {
     let nod = "moves: [(move: nod, start: 0.1, length: 0.4, angle: 20)]";
-    let far = "bodies: [(name: \"a\", at: (9, 0, 0)), (name: \"b\", shape: capsule, at: (0, -9, 1), to: (0, -9, -1), radius: 2)], \
+    let far = "bodies: [(name: \"a\", at: (9, 0, 0)), (name: \"b\", shape: capsule, at: (0, -9, 1), to: (0, -9, -1), radius: 2), \
+               (name: \"c\", shape: mesh, file: \"c.####.obj\", at: (0, 0, 40))], \
                body_keys: [(body: \"a\", time: 0), (body: \"a\", time: 30, at: (9, 9, 0))]";
-    let scene = |script: String| Given::new(TAIL, &script, "").scene().unwrap();
+    let scene = |script: String| {
+        let given = Given::new(TAIL, &script, "");
+        // It changes its form.
+        for (number, half) in [0.2, 0.3].into_iter().enumerate() {
+            let cube = meshes::cube([half; 3], [0.0; 3]);
+            fs::write(given.folder.path().join(format!("c.000{number}.obj")), cube).unwrap();
+        }
+        given.scene().unwrap()
+    };
     let without = scene(format!("(version: 1, {nod})"));
     let with = scene(format!("(version: 1, {nod}, {far})"));
     let [mut one, mut other] = [(); 2].map(|()| Motion::new());

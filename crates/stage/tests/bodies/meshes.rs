@@ -45,7 +45,7 @@ fn a_mesh_that_its_files_move_takes_hair_along() {
 }
 
 /// A box about 0, m, and the same in another form.
-fn cube(half: [f32; 3], at: [f32; 3]) -> String {
+pub(super) fn cube(half: [f32; 3], at: [f32; 3]) -> String {
     let mut text = String::new();
     for corner in 0..8 {
         let side = |axis: usize| {
