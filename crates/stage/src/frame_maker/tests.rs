@@ -212,6 +212,8 @@ fn thin_hair_behind_hair_and_heads_is_not_worked_out() {
         ("manga-ink", 9.0, 0.04, 100.0, 8),
         ("flat-tails-red", 8.0, 0.02, 10.0, 4),
         ("outlined", 6.0, 0.01, 75.0, 16),
+        ("twin-tails", 8.0, 0.03, 150.0, 8),
+        ("twin-tails", 6.0, 0.03, 150.0, 16),
     ] {
         let mut scene = with_yardstick(look, [320, 240], |preset, files| {
             dense(preset, files, size, dive)
