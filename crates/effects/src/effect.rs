@@ -235,7 +235,7 @@ impl Reach {
         clumps: 8.0,
         units: 150.0,
     };
-    /// Where strokes of no width reach: there are none. Lines that only such strokes are drawn on aren't looked for.
+    /// Where strokes of no width reach: there are none. A layer of such strokes alone is left out, with the paths and lines that only it is drawn on.
     pub const NOWHERE: Self = Self {
         clumps: 0.0,
         units: 0.0,

@@ -203,16 +203,10 @@ impl Body {
         for (from_hair, (time, posture)) in
             from_hair.iter_mut().zip(times.into_iter().zip(postures))
         {
-            let Placed { pose, size } = self.at(time, posture);
-            let (middle, own) = match &self.own {
-                Own::Sphere { radius } => (DVec3::ZERO, *radius),
-                Own::Capsule { half, radius } => (DVec3::ZERO, half.length() + radius),
-                Own::Mesh(forms) => (forms.middle(time), forms.radius()),
-            };
-            radius = radius.max(own * size);
-            let [own, hair] = [(pose, middle * size), (posture.head, reach.around)]
-                .map(|(pose, at)| pose.rotation * at + pose.translation);
-            *from_hair = own - hair;
+            let (middle, own) = self.ball(time, posture);
+            let head = posture.head;
+            radius = radius.max(own);
+            *from_hair = middle - (head.rotation * reach.around + head.translation);
         }
         let [start, end] = from_hair;
         // On the way between two places nothing is nearer than this, however it goes there straight.
@@ -220,6 +214,20 @@ impl Body {
         // What is no number is for the solver to tell.
         let is_beyond = nearest > reach.radius_m + radius;
         !is_beyond
+    }
+
+    /// A ball that all of it is in at the script's own `time` (seconds), of a figure that stands so: its middle and its radius, m.
+    pub fn ball(&self, time: f64, posture: &Posture) -> (DVec3, f64) {
+        let Placed { pose, size } = self.at(time, posture);
+        let (middle, radius) = match &self.own {
+            Own::Sphere { radius } => (DVec3::ZERO, *radius),
+            Own::Capsule { half, radius } => (DVec3::ZERO, half.length() + radius),
+            Own::Mesh(forms) => forms.ball(time),
+        };
+        (
+            pose.rotation * (middle * size) + pose.translation,
+            radius * size,
+        )
     }
 
     /// Its shape at the script's own `time` (seconds), so many times as large.

@@ -27,15 +27,28 @@ const MOST_POINTS: usize = 40_000_000;
 /// Loops of more frames than this take long enough that it is said beforehand.
 const MANY_FRAMES: usize = 480;
 
-/// What to say of a loop of so many seconds before it is drawn, where that takes long; it has so many frames a second.
-pub(crate) fn long(period: f64, fps: f32) -> Option<String> {
+/// How far a period may be from a whole number of frames, in frames: it is written in few digits.
+const WHOLE: f64 = 0.02;
+
+/// What to say of a loop of so many seconds before it is drawn, with so many frames a second: that it takes long, and that a sequence of it has a seam.
+pub(crate) fn notes(period: f64, fps: f32) -> impl Iterator<Item = String> {
     let frames = frames_of(period, fps);
-    (frames > MANY_FRAMES).then(|| {
+    let long = (frames > MANY_FRAMES).then(|| {
         format!(
             "loop: all of its {frames} frames are simulated, two to {MOST_ROUNDS} times, before the first one is drawn; a shorter \
              `period` takes less"
         )
-    })
+    });
+    let of_frames = period * f64::from(fps);
+    let uneven = ((of_frames - frames as f64).abs() > WHOLE).then(|| {
+        let [own, of_frames, whole] =
+            [period, of_frames, frames as f64 / f64::from(fps)].map(|number| (number * 1e4).round() / 1e4);
+        format!(
+            "loop: its `period` of {own} s is {of_frames} frames at {fps} a second, so that a sequence of its pictures has a seam; {whole} s \
+             are {frames} frames"
+        )
+    });
+    long.into_iter().chain(uneven)
 }
 
 fn frames_of(period: f64, fps: f32) -> usize {

@@ -196,6 +196,20 @@ impl HairModel {
         ))
     }
 
+    /// That a zone's factors are on what the look hasn't.
+    pub(crate) fn idle_notes(&self, dynamics: &DynamicsSection) -> Vec<String> {
+        let zones = self.zone_names.iter().zip(&self.zone_dynamics);
+        let idle = zones.flat_map(|(zone, own)| {
+            let names = own.iter().flat_map(|own| own.idle(dynamics));
+            names.map(move |name| {
+                format!(
+                    "hair: `{name}` of zone `{zone}` is a factor on the look's `dynamics.{name}`, which is 0: it changes nothing"
+                )
+            })
+        });
+        idle.collect()
+    }
+
     /// Moves what is styled within bodies of a script out of them, as they are when the motion begins: what is so is its shape at rest.
     pub(crate) fn move_out_of_bodies(&mut self, script: &MotionScript, dynamics: &DynamicsSection) {
         if script.bodies.is_empty() || self.file.motion.is_some() {

@@ -113,6 +113,8 @@ impl Look {
         for (layer, spec) in layers.into_iter().zip(&preset.layers) {
             if spec.effect.is_for_meshes() {
                 mesh_layers.push(layer);
+            } else if layer.program.reach() == Reach::NOWHERE {
+                // Neither its paths nor its lines are looked for.
             } else if spec.effect.is_for_lines() {
                 line_layers.push(layer);
             } else {
@@ -354,10 +356,7 @@ fn line_sets(preset: &Preset, layers: &[Layer]) -> Result<Vec<LineSet>, StageErr
     for lines in &preset.lines {
         let section = &lines.section;
         let own = section.name.as_deref().unwrap_or_default();
-        let draws = |layer: &&Layer| {
-            Names(layer.on.as_deref().unwrap_or_default()).have(own)
-                && layer.program.reach() != Reach::NOWHERE
-        };
+        let draws = |layer: &&Layer| Names(layer.on.as_deref().unwrap_or_default()).have(own);
         let layers: Vec<Layer> = layers.iter().filter(draws).cloned().collect();
         if layers.is_empty() {
             continue;

@@ -89,10 +89,13 @@ impl Object {
         hair.move_out_of_bodies(&script, &preset.sections.dynamics);
         bake::load(preset, files, &mut hair, notes)?;
         notes.extend(hair.still_note());
+        if !script.is_still() {
+            notes.extend(hair.idle_notes(&preset.sections.dynamics));
+        }
         if let Some(period) = script.period.filter(|_| script.closes)
             && hair.bake.is_none()
         {
-            notes.extend(closed::long(period, preset.sections.scene.fps));
+            notes.extend(closed::notes(period, preset.sections.scene.fps));
         }
         if hair.has_own_colors() {
             notes.extend(look.shades_note());

@@ -182,6 +182,55 @@ fn a_loop_without_end_is_refused() {
     );
 }
 
+/// What is said of a scene beside how much hair it has.
+fn said(scene: &Scene) -> String {
+    let (hair, notes) = scene.notes().split_first().unwrap();
+    assert_eq!(hair, "hair: 4 clumps, grown from the style");
+    notes.join("\n")
+}
+
+/// What is said of a loop of so many seconds, at 24 frames a second.
+fn said_of_loop(period: &str) -> String {
+    let script = format!("(version: 1, period: {period}, loop: true, winds: [(speed: 2)])");
+    said(&scene("", &script, &[]))
+}
+
+#[test]
+fn a_loop_that_is_no_whole_number_of_frames_is_named() {
+    for whole in ["2", "1.2917", "1.29167", "0.5"] {
+        assert_eq!(said_of_loop(whole), "", "{whole}");
+    }
+    for (period, named) in [
+        (
+            "1.3",
+            "1.3 s is 31.2 frames at 24 a second, so that a sequence of its pictures has a seam; 1.2917 s are 31 frames",
+        ),
+        ("0.01", "0.24 frames at 24 a second"),
+    ] {
+        let notes = said_of_loop(period);
+        assert!(notes.contains(named), "{notes}");
+    }
+}
+
+/// A zone's factors on what the look hasn't change nothing, and that is said once for each.
+#[test]
+fn factors_on_nothing_are_named() {
+    let of = |own: &str, settings: &[(&str, &str)]| said(&scene(own, GUST, settings));
+    let own = ", recall: 3, locks: 0.5";
+    let notes = of(own, &[]);
+    for name in ["recall", "locks"] {
+        let named = format!(
+            "`{name}` of zone `1` is a factor on the look's `dynamics.{name}`, which is 0: it changes nothing"
+        );
+        assert_eq!(notes.matches(&named).count(), 1, "{notes}");
+    }
+    let has_both = [("dynamics.recall", "2"), ("dynamics.locks", "1")];
+    assert_eq!(of(own, &has_both), "");
+    // That they have none is no mistake, nor what a picture at rest doesn't ask for.
+    assert_eq!(of(", recall: 0, locks: 0", &[]), "");
+    assert_eq!(said(&scene(own, "(version: 1)", &[])), "");
+}
+
 #[test]
 fn a_loop_ends_where_it_begins_and_as_fast() {
     let breeze = presets().join("motions/breeze-loop.motion.ron");

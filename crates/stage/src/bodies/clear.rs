@@ -19,6 +19,8 @@ const IN_VAIN: f32 = 0.8;
 const PATIENCE: u32 = 2;
 /// The next points aren't taken along by less than this, m.
 const LEAST: f32 = 1e-5;
+/// How many times as long as it was a link may become: what a body that comes fast has swallowed stays in it rather than tear.
+const MOST_STRETCHED: f32 = 1.25;
 /// How far out of a mesh that it grows under hair may sway, as the solver has it, m.
 const WORN_LOOSELY: f32 = 1e-2;
 /// What single precision may change a distance by, m.
@@ -42,7 +44,8 @@ pub(crate) fn clear(
     let mut near = Near::new(bodies);
     near.root(points, held - 1);
     let may_jam = near.bodies.iter().any(|(_, known)| !known.is_of_figure);
-    let mut has_moved = false;
+    // Where points were from the last that is held on, once any has been moved.
+    let mut before = Vec::new();
     let (mut last_farthest, mut in_vain) = (f32::INFINITY, 0);
     for _ in 0..CLEARINGS {
         let mut farthest = 0.0_f32;
@@ -56,9 +59,12 @@ pub(crate) fn clear(
                 let Some(push) = near.push(points, i, place, (gap - NEAR, moves_here)) else {
                     continue;
                 };
+                if before.is_empty() {
+                    before = points[held - 1..].to_vec();
+                }
                 // As little as moves the place by that much; what is held stays.
                 let t = PLACES[place];
-                let (before, here) = match i == held {
+                let (start, end) = match i == held {
                     true => (0.0, 1.0),
                     false => {
                         let squared = (1.0 - t) * (1.0 - t) + t * t;
@@ -66,17 +72,16 @@ pub(crate) fn clear(
                     }
                 };
                 farthest = farthest.max(push.length());
-                let (before, here) = (push * before, push * here);
-                points[i - 1] += before;
-                points[i] += here;
-                take_along(&mut points[i + 1..], here, BEYOND);
+                let (start, end) = (push * start, push * end);
+                points[i - 1] += start;
+                points[i] += end;
+                take_along(&mut points[i + 1..], end, BEYOND);
                 let behind = &mut points[held..(i - 1).max(held)];
-                take_along(behind.iter_mut().rev(), before, BEHIND);
+                take_along(behind.iter_mut().rev(), start, BEHIND);
                 moves_here = true;
             }
             if moves_here {
                 near.start(points, i);
-                has_moved = true;
             }
         }
         in_vain = if farthest > IN_VAIN * last_farthest {
@@ -89,7 +94,19 @@ pub(crate) fn clear(
         }
         last_farthest = farthest;
     }
-    has_moved
+    hold_together(&mut points[held - 1..], &before);
+    !before.is_empty()
+}
+
+/// Moves what follows links that have been drawn out too far, from the root on, so that none is longer than [`MOST_STRETCHED`] times what it was.
+fn hold_together(points: &mut [Vec3], before: &[Vec3]) {
+    for (i, was) in before.windows(2).enumerate() {
+        let most = MOST_STRETCHED * was[0].distance(was[1]);
+        let [start, end] = [points[i], points[i + 1]];
+        if start.distance_squared(end) > most * most {
+            points[i + 1] = start + (end - start).clamp_length_max(most);
+        }
+    }
 }
 
 /// Moves the next points of a strand by less and less, so that it bends and does not break.

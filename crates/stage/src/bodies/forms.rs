@@ -186,9 +186,11 @@ impl Forms {
         from.lerp(to, share)
     }
 
-    /// How far no place of any form is from [its middle](Self::middle), m.
-    pub fn radius(&self) -> f64 {
-        self.radius
+    /// A ball that the mesh is in at a time (seconds), be it mixed of two forms or still the form before: its middle and its radius, m.
+    pub fn ball(&self, time: f64) -> (DVec3, f64) {
+        let (from, to, _) = self.between(time);
+        let [from, to] = [from, to].map(|form| self.forms[form].middle.as_dvec3());
+        (self.middle(time), self.radius + from.distance(to))
     }
 
     /// The distances of a form about [its middle](Self::middle).

@@ -37,6 +37,20 @@ impl Default for ZoneDynamics {
     }
 }
 
+impl ZoneDynamics {
+    /// Its factors, by name, on what the look doesn't have unless it says so, and hasn't.
+    pub fn idle(&self, look: &DynamicsSection) -> impl Iterator<Item = &'static str> {
+        let factors = [
+            ("recall", self.recall, look.recall),
+            ("locks", self.locks, look.locks),
+        ];
+        // A factor of 0 says that its hair has none, whatever the look.
+        let is_idle =
+            |(_, own, of_look): &(_, f32, f32)| *of_look == 0.0 && ![0.0, 1.0].contains(own);
+        factors.into_iter().filter(is_idle).map(|(name, ..)| name)
+    }
+}
+
 /// What a word means.
 ///
 /// Stiffness is told by the weight of the hair against it, Gamma = rho g S L^3 / (E I), so that short and

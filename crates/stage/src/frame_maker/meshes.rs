@@ -1,6 +1,5 @@
 //! What frames have of an object's meshes: head, bodies, ties.
 
-use super::ball_around;
 use crate::head;
 use crate::head::layers::MeshLayers;
 use crate::motion::ObjectMotion;
@@ -113,11 +112,21 @@ impl ObjectMeshes<'_> {
             motion.posed_s(),
         );
         let drawn = bodies.iter().filter_map(|body| {
+            let (center, radius_m) = body.ball(motion.posed_s(), &posture);
+            // Its corners are rounded to single precision.
+            let radius_m = 1.0001 * radius_m as f32 + paint.width_m;
+            if !self.sight.may_see_ball(center.as_vec3(), radius_m) {
+                return None;
+            }
             let mesh = body.drawn(motion.posed_s(), &posture)?;
-            let (center, radius_m) = ball_around(&mesh.positions);
-            let is_seen = self.sight.may_see_ball(center, radius_m + paint.width_m);
             let camera = self.sight.camera();
-            is_seen.then(|| head::painted(&mesh, &paint, self.layers, camera, &self.light))
+            Some(head::painted(
+                &mesh,
+                &paint,
+                self.layers,
+                camera,
+                &self.light,
+            ))
         });
         drawn.flatten().collect()
     }

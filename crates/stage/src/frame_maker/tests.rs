@@ -39,6 +39,38 @@ fn with_yardstick(
     make(&mut preset, &files)
 }
 
+/// Fine hairs of no width have no paths, and leave the picture its bits.
+#[test]
+fn layers_of_no_width_are_left_out() {
+    let with_fine = |width: Option<&str>| {
+        with_yardstick("blond-fantasy", [96, 72], |preset, files| {
+            let fine = |layer: &effects::LayerSpec| layer.effect.id() == "hair.fine";
+            match width {
+                Some(width) => {
+                    let mut layers = preset.layers.iter_mut();
+                    let layer = layers.find(|layer| fine(layer)).unwrap();
+                    layer.set("width", width).unwrap();
+                }
+                None => preset.layers.retain(|layer| !fine(layer)),
+            }
+            Scene::load(preset, files).unwrap()
+        })
+    };
+    let of = |width| {
+        let mut frames = FrameMaker::new();
+        let frame = frames
+            .frame(&with_fine(width), &Motion::new())
+            .map(|frame| {
+                let joints = frame.paths.len();
+                (joints, picture(&frame, Evaluator::default()))
+            });
+        frame.unwrap()
+    };
+    let without = of(None);
+    assert!(of(Some("1")).0 > without.0);
+    assert_eq!(of(Some("0")), without);
+}
+
 /// The pixels' bits, and how many strands have joints.
 fn picture(frame: &Frame, evaluator: Evaluator) -> (Vec<[u32; 4]>, usize) {
     picture_of(frame, evaluator, 2)
