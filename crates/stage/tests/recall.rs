@@ -137,6 +137,19 @@ fn all_looks_that_recall_get_their_hair_back() {
     }
 }
 
+/// What is recalled leaves a shoulder fast enough to get over it: held to what else bounces by, these left a lock for good.
+#[test]
+fn what_is_recalled_gets_over_a_shoulder() {
+    let folder = tempfile::tempdir().unwrap();
+    let script = there_and_back(folder.path(), 93);
+    for look in ["blond-fantasy", "xtoon-depth"] {
+        let settings = [("scene.fps", "60"), ("dynamics.locks", "1")];
+        let [later] = Moved::new(look, &script, &settings).left_at([9.3]);
+        println!("{look}: {later:.2} head heights from its style after 8 s");
+        assert!(later < 0.05, "{look}: {later}");
+    }
+}
+
 /// What passed through locks on the way to a later moment changes nothing of an earlier one.
 #[test]
 fn a_recalled_moment_is_the_same_however_it_is_reached() {
