@@ -137,7 +137,7 @@ fn all_looks_that_recall_get_their_hair_back() {
     }
 }
 
-/// What is recalled leaves a shoulder fast enough to get over it: held to what else bounces by, these left a lock for good.
+/// What is recalled leaves a shoulder fast enough to get over it: held to 1.5 m/s these left a lock for good.
 #[test]
 fn what_is_recalled_gets_over_a_shoulder() {
     let folder = tempfile::tempdir().unwrap();

@@ -45,8 +45,8 @@ const TOUCH: f64 = 2e-5;
 const PUSHED: f64 = 8e-3;
 
 /// What has a plane before it, of a body or of other hair, leaves that no faster than this, in m/s, or than it did before: a stage that stops what comes fast turns its speed about. Between an arm and
-/// a side a tip bounced twice as fast each time. What is recalled in full leaves it by twice as much: so it gets over a shoulder.
-const REBOUNDS: f64 = 1.5;
+/// a side a tip bounced twice as fast each time. What is recalled gets over a shoulder by as much.
+const REBOUNDS: f64 = 2.0;
 
 /// Hair that is beside a figure is pushed towards it by no more than this in a step, in m, where another body comes: pushed all the way at once it trembles more under that.
 const REACHED: f64 = 5e-3;
@@ -119,11 +119,7 @@ impl Contact {
         let velocity = state.v[k].get(lane) - flow;
         let out = velocity.dot(normal);
         let is_pushed = surface.start - normal.dot(state.y[k].get(lane)) > PUSHED;
-        let recalled = state.recalled.get(k).map_or(0.0, |share| share[lane]);
-        self.leaves[lane] = out.max(match is_pushed {
-            true => 0.0,
-            false => REBOUNDS * (1.0 + recalled),
-        });
+        self.leaves[lane] = out.max(if is_pushed { 0.0 } else { REBOUNDS });
         let sliding = (velocity - normal * out).length();
         let bound = if creep > 0.0 { press } else { 0.0 };
         let sticks = bound > 0.0 && sliding <= creep;

@@ -463,6 +463,28 @@ mod tests {
         assert!(nearest > gap - 2.0 * NEAR, "{nearest}");
     }
 
+    /// What a body has swallowed behind a root that it hasn't is drawn out no farther than its links allow, and what it lets go of lies where it did.
+    #[test]
+    fn what_is_swallowed_is_not_torn() {
+        let ball = ball(-0.14, 0.12);
+        let straight: Vec<Vec3> = (0..13)
+            .map(|i| Vec3::new(0.001, -0.025 * i as f32, 0.0))
+            .collect();
+        let mut moved = straight.clone();
+        let gap = 1e-3;
+        let mut bodies = followed(std::slice::from_ref(&ball), 1);
+        assert!(clear(&mut moved, 1, &mut bodies, gap, |_| [gap; 4]));
+        let stretched = |points: &[Vec3]| {
+            let links = points.windows(2);
+            let lengths = links.map(|link| link[0].distance(link[1]) / 0.025);
+            lengths.fold(0.0, f32::max)
+        };
+        let most = stretched(&moved);
+        assert!(most < MOST_STRETCHED + 1e-4, "{most}");
+        // Some of them are as long as they may be: they would be longer.
+        assert!(most > MOST_STRETCHED - 1e-4, "{most}");
+    }
+
     /// Hair between a back and an arm that comes 30 mm into it is left out of the back, on its own side, and in the arm; without the back it is moved out of the arm.
     #[test]
     fn what_has_no_room_stays_out_of_the_figure() {
