@@ -45,8 +45,9 @@ const TOUCH: f64 = 2e-5;
 const PUSHED: f64 = 8e-3;
 
 /// What has a plane before it, of a body or of other hair, leaves that no faster than this, in m/s, or than it did before: a stage that stops what comes fast turns its speed about. Between an arm and
-/// a side a tip bounced twice as fast each time. What is recalled gets over a shoulder by as much.
-const REBOUNDS: f64 = 2.0;
+/// a side a tip bounced twice as fast each time. What is recalled gets over a shoulder by as much as the first; locks that jam shake each other the less, the less the second is.
+const OFF_BODIES: f64 = 2.0;
+const OFF_HAIR: f64 = 1.5;
 
 /// Hair that is beside a figure is pushed towards it by no more than this in a step, in m, where another body comes: pushed all the way at once it trembles more under that.
 const REACHED: f64 = 5e-3;
@@ -119,7 +120,11 @@ impl Contact {
         let velocity = state.v[k].get(lane) - flow;
         let out = velocity.dot(normal);
         let is_pushed = surface.start - normal.dot(state.y[k].get(lane)) > PUSHED;
-        self.leaves[lane] = out.max(if is_pushed { 0.0 } else { REBOUNDS });
+        self.leaves[lane] = out.max(match batch.is_of_body(slot) {
+            _ if is_pushed => 0.0,
+            true => OFF_BODIES,
+            false => OFF_HAIR,
+        });
         let sliding = (velocity - normal * out).length();
         let bound = if creep > 0.0 { press } else { 0.0 };
         let sticks = bound > 0.0 && sliding <= creep;
