@@ -40,12 +40,13 @@ pub(crate) fn notes(period: f64, fps: f32) -> impl Iterator<Item = String> {
         )
     });
     let of_frames = period * f64::from(fps);
-    let uneven = ((of_frames - frames as f64).abs() > WHOLE).then(|| {
-        let [own, of_frames, whole] =
-            [period, of_frames, frames as f64 / f64::from(fps)].map(|number| (number * 1e4).round() / 1e4);
+    let uneven = ((of_frames - of_frames.round()).abs() > WHOLE).then(|| {
+        let digits = |number: f64, digit: f64| (number / digit).round() * digit;
         format!(
-            "loop: its `period` of {own} s is {of_frames} frames at {fps} a second, so that a sequence of its pictures has a seam; {whole} s \
-             are {frames} frames"
+            "loop: its `period` of {} s is {} frames at {fps} a second, so that a sequence of its pictures has a seam; {} s are {frames} frames",
+            period as f32,
+            digits(of_frames, 0.01) as f32,
+            digits(frames as f64 / f64::from(fps), 1e-5) as f32,
         )
     });
     long.into_iter().chain(uneven)

@@ -203,7 +203,7 @@ fn a_loop_that_is_no_whole_number_of_frames_is_named() {
     for (period, named) in [
         (
             "1.3",
-            "1.3 s is 31.2 frames at 24 a second, so that a sequence of its pictures has a seam; 1.2917 s are 31 frames",
+            "1.3 s is 31.2 frames at 24 a second, so that a sequence of its pictures has a seam; 1.29167 s are 31 frames",
         ),
         ("0.01", "0.24 frames at 24 a second"),
     ] {

@@ -1,5 +1,7 @@
 use glam::{DQuat, DVec3, Vec3};
-use hair_sim::{Collider, Params, Pose, Shape, SignedDistance, Solver, State, Surroundings, Wind};
+use hair_sim::{
+    Collider, Params, Pose, Shape, SignedDistance, Solver, State, Strands, Surroundings, Wind,
+};
 
 use crate::{after, among, farthest, in_wind, params, run, shape, straight};
 
@@ -51,6 +53,44 @@ fn hair_lies_on_a_ball() {
         shapes.push(shape(&solver, &state));
     }
     assert!(farthest(&shapes[0], &shapes[1]) < 1e-3);
+}
+
+/// Each strand goes by the body that it meets, whichever number that has, and whatever others there are.
+#[test]
+fn bodies_that_a_strand_cannot_meet_leave_it_its_bits() {
+    const COUNT: usize = 9;
+    let place = |i: usize| DVec3::X * 3.0 * i as f64;
+    let mut rest = Strands::new();
+    for i in 0..COUNT {
+        let root = place(i).as_vec3() + Vec3::new(0.01, 0.102, 0.0);
+        let points: Vec<Vec3> = (0..=20)
+            .map(|k| root + Vec3::X * 0.015 * k as f32)
+            .collect();
+        rest.push(i as u32, &points, None).unwrap();
+    }
+    let ball = |i: usize| {
+        let translation = place(i);
+        Collider::fixed(
+            BALL,
+            Pose {
+                translation,
+                ..Pose::IDENTITY
+            },
+        )
+    };
+    let fall = |colliders: &[Collider]| {
+        let (mut solver, mut state) = Solver::new(&rest, &params(200.0)).unwrap();
+        run(&mut solver, &mut state, &among(colliders), 1.0 / 60.0, 40);
+        let tip = |i: usize| solver.points(&state, i).last().unwrap();
+        (0..COUNT).map(tip).collect::<Vec<DVec3>>()
+    };
+    let all: Vec<Collider> = (0..COUNT).map(ball).collect();
+    let (among_all, alone) = (fall(&all), fall(&[]));
+    for i in 0..COUNT {
+        let own = fall(&[ball(i)])[i];
+        assert_eq!(among_all[i], own, "{i}");
+        assert!((own - alone[i]).length() > 0.01, "{i}");
+    }
 }
 
 #[test]

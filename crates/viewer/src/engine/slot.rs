@@ -6,7 +6,7 @@ use effects::Registry;
 use effects::preset::PresetErrors;
 use stage::{
     BodySection, CameraSection, DynamicsSection, Files, FrameMaker, Heads, MeshSection, Motion,
-    ObjectSection, Preset, Scene, Sections, StageError, Textures,
+    ObjectSection, Preset, Scene, SceneSection, Sections, StageError, Textures,
 };
 use std::fs;
 use std::path::PathBuf;
@@ -261,11 +261,19 @@ impl From {
                     hair: all.hair.clone(),
                     head: all.head.clone(),
                     motion: all.motion.clone(),
-                    // Hair that is styled in a body is moved out of it when it is read, as the body is at the first step.
                     dynamics: DynamicsSection {
+                        // Hair that is styled in a body is moved out of it when it is read, as the body is at the first step.
                         distance: all.dynamics.distance,
                         warm_up: all.dynamics.warm_up,
+                        // Whether there are any is said of a zone's factors on them.
+                        recall: all.dynamics.recall.min(f32::MIN_POSITIVE),
+                        locks: all.dynamics.locks.min(f32::MIN_POSITIVE),
                         ..DynamicsSection::default()
+                    },
+                    // Of how many frames a loop is is said, too.
+                    scene: SceneSection {
+                        fps: all.scene.fps,
+                        ..SceneSection::default()
                     },
                     ..Sections::default()
                 },
