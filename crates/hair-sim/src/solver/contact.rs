@@ -47,7 +47,7 @@ const PUSHED: f64 = 8e-3;
 /// What has a plane before it, of a body or of other hair, leaves that no faster than this, in m/s, or than it did before: a stage that stops what comes fast turns its speed about. Between an arm and
 /// a side a tip bounced twice as fast each time. What is recalled gets over a shoulder by as much as the first; locks that jam shake each other the less, the less the second is.
 const OFF_BODIES: f64 = 2.0;
-const OFF_HAIR: f64 = 1.5;
+const OFF_HAIR: f64 = 1.75;
 
 /// Hair that is beside a figure is pushed towards it by no more than this in a step, in m, where another body comes: pushed all the way at once it trembles more under that.
 const REACHED: f64 = 5e-3;

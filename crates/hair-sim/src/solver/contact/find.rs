@@ -33,8 +33,6 @@ pub(crate) struct Ways {
     pub(super) to: Vec<Vec3>,
     /// The strands whose particle, or the link after it, may come near a body.
     pub(super) near: Vec<Mask>,
-    /// The bodies that any of them, or of the links between them, may come near.
-    may_meet: Vec<bool>,
     /// How far the strands' roots are from the surface of each body that they are in when the step ends, in m; infinity of the others.
     roots: Vec<Lane>,
     /// How many particles from the root on are in each mesh of its own when the step starts, where the root is.
@@ -48,7 +46,6 @@ impl Ways {
             from: vec![Vec3::ZERO; count],
             to: vec![Vec3::ZERO; count],
             near: vec![Mask::NONE; count],
-            may_meet: Vec::new(),
             roots: Vec::new(),
             under: Vec::new(),
         }
@@ -67,8 +64,7 @@ impl Ways {
     fn look_under(&mut self, batch: &Batch, bodies: &Bodies, lanes: Mask) {
         self.under.clear();
         for (index, body) in bodies.colliders.iter().enumerate() {
-            let may_be_worn =
-                self.may_meet[index] && may_be_worn(index, body, bodies.of_one_figure);
+            let may_be_worn = may_be_worn(index, body, bodies.of_one_figure);
             self.under.push(std::array::from_fn(|lane| {
                 let holds = |at: DVec3, up_to: f64| at_start(body, at).1 < up_to;
                 if !may_be_worn || !lanes.get(lane) || !holds(bodies.before.get(lane), 0.0) {
@@ -362,18 +358,13 @@ fn detect_with_links<T: Number>(
             let known = T::condition(&Mask::new(state.restart).not());
             let count = batch.count();
             let mut any = Mask::NONE;
-            let mut may_meet = std::mem::take(&mut ways.may_meet);
-            may_meet.clear();
-            may_meet.resize(bodies.guards.len(), false);
             for k in 0..count {
                 let [from, to] = way::<T>(k, state, bodies, known);
                 (ways.from[k], ways.to[k]) = (from.store(), to.store());
-                let note = |body: usize| may_meet[body] = true;
-                let near = ways.near::<T>(k, (batch, state), bodies, note).and(active);
+                let near = ways.near::<T>(k, (batch, state), bodies).and(active);
                 ways.near[k] = near;
                 any = any.or(near);
             }
-            ways.may_meet = may_meet;
             if !any.any() {
                 for lift in lifts {
                     *lift = active.pick(Lane::ZERO, *lift);
@@ -427,14 +418,13 @@ fn detect_with_links<T: Number>(
 }
 
 impl Ways {
-    /// The strands whose particle `k`, or a link beside it, may come near a body. `note` is told the number of each such body.
+    /// The strands whose particle `k`, or a link beside it, may come near a body.
     #[inline(always)]
     pub(super) fn near<T: Number>(
         &self,
         k: usize,
         (batch, state): (&Batch, &BatchState),
         bodies: &Bodies,
-        mut note: impl FnMut(usize),
     ) -> Mask {
         // No place of a link is farther from the nearer of its ends.
         let next = batch
@@ -447,13 +437,9 @@ impl Ways {
         let half = longer * T::splat(0.5);
         let (from, to) = (self.from[k].load::<T>(), self.to[k].load());
         let mut near = Mask::NONE;
-        for (body, guard) in bodies.guards.iter().enumerate() {
+        for guard in bodies.guards {
             let keep = if guard.has_links { keep + half } else { keep };
-            let own = guard.is_near(from, to, keep);
-            if own.any() {
-                note(body);
-            }
-            near = near.or(own);
+            near = near.or(guard.is_near(from, to, keep));
         }
         near
     }
@@ -480,19 +466,14 @@ impl Looked<'_> {
         }
     }
 
-    /// The bodies that the batch may come near, by number, with how deep the root of a strand is in each.
-    fn met(&self, lane: usize) -> impl Iterator<Item = (usize, (&Collider<'_>, f64))> {
-        let all = self.ways.of_root(self.bodies.colliders, lane).enumerate();
-        all.filter(|(body, _)| self.ways.may_meet[*body])
-    }
-
     /// What link `k` lacks; nothing where there is none, or it is the root's.
     fn link(&self, k: usize, lane: usize) -> Option<Lack> {
         if k == 0 || k >= self.batch.counts[lane] {
             return None;
         }
         let ends = [self.path(k - 1, lane), self.path(k, lane)];
-        Lack::deepest(self.met(lane), ends, self.batch.links[k].length[lane])
+        let colliders = self.ways.of_root(self.bodies.colliders, lane);
+        Lack::deepest(colliders, ends, self.batch.links[k].length[lane])
     }
 
     /// The planes of particle `k`, between links that lack this, where `last_lift` is by how much it was farther from a body than it would be alone, and `near` the bodies that have any: that which
@@ -521,7 +502,8 @@ impl Looked<'_> {
         } else if depth < -clear {
             *last_lift = last_lift.min(need);
         }
-        for (index, (collider, root)) in self.met(lane) {
+        let colliders = self.ways.of_root(self.bodies.colliders, lane);
+        for (index, (collider, root)) in colliders.enumerate() {
             if k < self.ways.under[index][lane] {
                 continue;
             }
