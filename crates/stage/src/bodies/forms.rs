@@ -311,6 +311,32 @@ mod tests {
         Form::new((positions.clone(), positions, triangles.collect()))
     }
 
+    /// What is drawn of it is in its ball, mixed or the form before: what lies about it may be left out of a picture.
+    #[test]
+    fn a_mesh_is_in_its_ball() {
+        let moved = |half: f32, by: Vec3| {
+            let cube = cube(half);
+            let positions = cube.positions.iter().map(|p| *p + by).collect();
+            Form::new((positions, cube.normals, cube.triangles))
+        };
+        let mut other = moved(0.1, Vec3::X);
+        other.triangles.rotate_left(1);
+        let forms = [
+            vec![moved(0.1, Vec3::ZERO), moved(0.3, Vec3::Y)],
+            vec![moved(0.1, Vec3::ZERO), other],
+        ];
+        for forms in forms {
+            let forms = Forms::new(forms, 1.0, End::Stays).unwrap();
+            for time in (0..=20).map(|i| f64::from(i) / 10.0) {
+                let (middle, radius) = forms.ball(time);
+                let (positions, ..) = forms.shape(time);
+                let away = positions.iter().map(|p| p.as_dvec3().distance(middle));
+                let farthest = away.fold(0.0, f64::max);
+                assert!(farthest < 1.0001 * radius, "{time}: {farthest} {radius}");
+            }
+        }
+    }
+
     #[test]
     fn forms_follow_each_other_as_their_rate_says() {
         let forms = || vec![cube(0.1), cube(0.2), cube(0.4)];
