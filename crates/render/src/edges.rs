@@ -1,7 +1,7 @@
 //! `edges`: lines where neighbouring samples show something else, as image filters draw them, at any width.
 //!
 //! Each sample of all pixels is a picture of its own, whose neighbours are a pixel away: lines found in each, and the mean of all, are
-//! smooth. Lines lie on what is in front. They are grown by discs, whose rows are shifted words of 64 pixels, so that wide lines take
+//! smooth. Lines lie on what is in front. They are grown by discs, whose rows are bits of words of 64 pixels, so that wide lines take
 //! hardly longer than thin ones.
 
 pub(crate) mod find;
@@ -78,6 +78,11 @@ impl Covered {
     /// The words of a row.
     pub(crate) fn row(&self, y: usize) -> &[u64] {
         &self.bits[y * self.words..][..self.words]
+    }
+
+    fn row_mut(&mut self, y: usize) -> Option<&mut [u64]> {
+        let start = y * self.words;
+        self.bits.get_mut(start..start + self.words)
     }
 }
 
@@ -362,66 +367,106 @@ pub(crate) fn covered<'a>(
     size: [u32; 2],
 ) -> Covered {
     let mut covered = Covered::none(size);
-    // What of a row is to be grown by one radius, row by row of words; and the words of one radius.
-    let mut classes: Vec<u16> = Vec::new();
-    let (mut bits, mut grown) = (Vec::new(), Vec::new());
+    let mut discs: Vec<Discs> = Vec::new();
+    // The classes of a row.
+    let mut classes: Vec<usize> = Vec::new();
     for found in found {
         let rows = found.rows.iter().filter(|row| row.sample == sample);
         for BeginningsOfRow { y, of_all, .. } in rows {
-            classes.clear();
-            bits.clear();
             for Beginning { column, class } in &found.all[of_all.clone()] {
-                let known = classes.iter().position(|other| other == class);
-                let index = known.unwrap_or_else(|| {
-                    classes.push(*class);
-                    bits.resize(classes.len() * covered.words, 0_u64);
-                    classes.len() - 1
-                });
-                let x = usize::from(*column);
-                bits[index * covered.words + x / 64] |= 1 << (x % 64);
+                let class = usize::from(*class);
+                while class >= discs.len() {
+                    discs.push(Discs::new(discs.len()));
+                }
+                let discs = &mut discs[class];
+                if discs.spans.is_empty() {
+                    classes.push(class);
+                }
+                discs.push(i32::from(*column));
             }
-            for (class, bits) in classes.iter().zip(bits.chunks(covered.words)) {
-                grown.clear();
-                grown.extend_from_slice(bits);
-                grow(&mut grown, f32::from(*class) / STEPS, *y, &mut covered);
+            for class in classes.drain(..) {
+                discs[class].draw(*y, &mut covered);
             }
         }
     }
     covered
 }
 
-/// Adds to the lines of all rows what a row becomes when each pixel is a disc of that radius.
-fn grow(row: &mut [u64], radius: f32, y: usize, lines: &mut Covered) {
-    let words = row.len();
-    let height = lines.bits.len() / words;
-    let reach = radius as usize;
-    let mut done = 0;
-    for down in (0..=reach).rev() {
-        let square = radius * radius - (down * down) as f32;
-        let wide = square.max(0.0).sqrt() as usize;
-        while done < wide {
-            widen(row);
-            done += 1;
+/// Discs of one radius around pixels of one row.
+struct Discs {
+    /// How far a disc reaches to either side, by how far a row is from its middle.
+    reach: Vec<i32>,
+    /// The first and the last columns of the pixels that lie side by side, from left to right.
+    spans: Vec<[i32; 2]>,
+}
+
+impl Discs {
+    /// None yet, of the radius of a class.
+    fn new(class: usize) -> Self {
+        let radius = class as f32 / STEPS;
+        let reach = (0..=radius as i32).map(|down| {
+            let square = radius * radius - (down * down) as f32;
+            square.max(0.0).sqrt() as i32
+        });
+        Self {
+            reach: reach.collect(),
+            spans: Vec::new(),
         }
-        let above = y.checked_sub(down);
-        let below = Some(y + down).filter(|y| down > 0 && *y < height);
-        for y in above.into_iter().chain(below) {
-            for (line, grown) in lines.bits[y * words..].iter_mut().zip(&*row) {
-                *line |= grown;
+    }
+
+    /// Adds one around a pixel to the right of the others.
+    fn push(&mut self, column: i32) {
+        match self.spans.last_mut() {
+            Some([_, last]) if *last + 1 == column => *last = column,
+            _ => self.spans.push([column, column]),
+        }
+    }
+
+    /// Adds them to the lines of all rows, and forgets them.
+    fn draw(&mut self, y: usize, lines: &mut Covered) {
+        // From where they are narrowest: what touches there does so in all rows that are left.
+        for (down, &reach) in self.reach.iter().enumerate().rev() {
+            join(&mut self.spans, 2 * reach + 1);
+            let above = y.checked_sub(down);
+            let below = (down > 0).then_some(y + down);
+            for y in above.into_iter().chain(below) {
+                let Some(row) = lines.row_mut(y) else {
+                    continue;
+                };
+                for [first, last] in &self.spans {
+                    set(row, first - reach, last + reach);
+                }
             }
         }
+        self.spans.clear();
     }
 }
 
-/// Adds the pixels to the left and to the right.
-fn widen(row: &mut [u64]) {
-    let mut before = 0;
-    for i in 0..row.len() {
-        let own = row[i];
-        let after = row.get(i + 1).copied().unwrap_or(0);
-        row[i] = own | own << 1 | own >> 1 | before >> 63 | after << 63;
-        before = own;
+/// Makes one of spans that begin no farther than so many columns behind the last one of the span before.
+fn join(spans: &mut Vec<[i32; 2]>, apart: i32) {
+    spans.dedup_by(|next, before| {
+        let touch = next[0] - before[1] <= apart;
+        if touch {
+            before[1] = next[1];
+        }
+        touch
+    });
+}
+
+/// Sets the bits of a row from one column to another, both with it, as far as they are there.
+fn set(row: &mut [u64], first: i32, last: i32) {
+    let end = row.len() as i32 * 64 - 1;
+    let (first, last) = (first.max(0), last.min(end));
+    let word = |column: i32| column as usize / 64;
+    let from = u64::MAX << (first % 64);
+    let to = u64::MAX >> (63 - last % 64);
+    if word(first) == word(last) {
+        row[word(first)] |= from & to;
+        return;
     }
+    row[word(first)] |= from;
+    row[word(first) + 1..word(last)].fill(u64::MAX);
+    row[word(last)] |= to;
 }
 
 #[cfg(test)]
@@ -429,6 +474,7 @@ mod tests {
     use super::*;
     use crate::cpu::STACK;
     use crate::planes::{BandPlanes, Sample, Stacks};
+    use proptest::prelude::*;
 
     fn edges() -> Edges {
         Edges {
@@ -587,6 +633,41 @@ mod tests {
                 all.filter(is_in).collect::<Vec<_>>(),
                 "{width_px}"
             );
+        }
+    }
+
+    proptest! {
+        /// Discs around any pixels of a row, of any radii, cover what each covers by itself.
+        #[test]
+        fn lines_cover_each_beginning_with_its_disc(
+            beginnings in prop::collection::btree_map((0..12_usize, 0..150_u16), 0..60_u16, 0..80),
+            is_dense: bool,
+        ) {
+            let size = [150, 12];
+            let mut found = Beginnings::default();
+            for y in 0..12 {
+                let own = beginnings.iter().filter(|((row, _), _)| *row == y);
+                // So that many lie side by side.
+                let own = own.map(|((_, column), class)| match is_dense {
+                    true => (column / 5, class % 3),
+                    false => (*column, *class),
+                });
+                let own: std::collections::BTreeMap<u16, u16> = own.collect();
+                let row: Vec<Beginning> =
+                    own.into_iter().map(|(column, class)| Beginning { column, class }).collect();
+                found.push(1, y, &row);
+            }
+            let covered = covered([&found], 1, size);
+            for (y, x) in (0..12).flat_map(|y| (0..150).map(move |x| (y, x))) {
+                let is_in = found.rows.iter().any(|row| {
+                    found.all[row.of_all.clone()].iter().any(|beginning| {
+                        let radius = f32::from(beginning.class) / STEPS;
+                        let (dx, dy) = (x as f32 - f32::from(beginning.column), y as f32 - row.y as f32);
+                        dx * dx + dy * dy <= radius * radius
+                    })
+                });
+                prop_assert_eq!(covered.row(y)[x / 64] >> (x % 64) & 1 != 0, is_in, "{} {}", x, y);
+            }
         }
     }
 

@@ -100,7 +100,8 @@ impl Object {
         if hair.has_own_colors() {
             notes.extend(look.shades_note());
         }
-        zones::check(&preset.layers, &hair, preset.is_on_other_hair(files), notes)?;
+        let is_on_other = preset.is_on_other_hair(files);
+        zones::check(&preset.layers, (&hair, &look), is_on_other, notes)?;
         let (wears_ties, is_given) = (!hair.ornaments.is_empty(), files.head.is_some());
         head::layers::check(&preset.layers, head.as_ref(), wears_ties, is_given, notes)?;
         let (listed, layers) = (&preset.lines, &preset.layers);

@@ -34,13 +34,15 @@ pub(crate) fn left_out_by(hair: &HairModel, look: &Look) -> Vec<u32> {
 /// Names of which the preset's own style has no zone, and zones of layers behind the 32nd.
 pub(crate) fn check(
     layers: &[LayerSpec],
-    hair: &HairModel,
+    (hair, look): (&HairModel, &Look),
     is_given: bool,
     notes: &mut Vec<String>,
 ) -> Result<(), StageError> {
     let mut mistakes = Vec::new();
     let strokes = layers.iter().filter(|layer| !layer.effect.is_for_meshes());
-    for (number, layer) in strokes.enumerate() {
+    for layer in strokes {
+        // Those of lines and those that draw nothing aren't counted.
+        let number = look.layers.iter().position(|of| of.name == layer.name);
         for message in faults(number, layer, hair) {
             match &layer.zones_place {
                 _ if is_given || hair.zone_names.is_empty() => {
@@ -60,13 +62,13 @@ pub(crate) fn check(
     Ok(PresetErrors::report(mistakes)?)
 }
 
-/// What is wrong with the zones of one layer.
-fn faults(number: usize, layer: &LayerSpec, hair: &HairModel) -> Vec<String> {
+/// What is wrong with the zones of one layer, which has that number among those that draw strokes.
+fn faults(number: Option<usize>, layer: &LayerSpec, hair: &HairModel) -> Vec<String> {
     let names = Names(layer.zones.as_deref().unwrap_or_default());
     if names.is_empty() {
         return Vec::new();
     }
-    if number >= MOST_LAYERS {
+    if number.is_some_and(|number| number >= MOST_LAYERS) {
         return vec![format!(
             "only the first {MOST_LAYERS} layers may say their zones: this one draws on all hair"
         )];

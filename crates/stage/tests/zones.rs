@@ -18,6 +18,7 @@ const STYLE: &str = r#"(
 fn registry() -> Registry {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).unwrap();
+    effects_surface::register(&mut registry).unwrap();
     registry
 }
 
@@ -113,6 +114,24 @@ fn a_zone_that_is_not_there_is_a_mistake_at_its_place() {
         said.contains("only the first 32 layers may say their zones"),
         "{said}"
     );
+    assert_eq!(said.matches("only the first").count(), 1, "{said}");
+}
+
+#[test]
+fn layers_that_draw_no_strokes_are_not_counted() {
+    let draws = |count: usize| {
+        let of = |i: usize| format!("(effect: \"hair.base\", name: \"{i}\", zones: \"fringe\")");
+        (0..count).map(of).collect::<Vec<String>>().join(",")
+    };
+    let others =
+        "(effect: \"line.ink\", on: \"rim\"), (effect: \"hair.fine\", params: (width: 0)),";
+    let lines = "], lines: [(name: \"rim\", of: \"*\")";
+    let layers = |count: usize| format!("{others} {}{lines}", draws(count));
+    let (registry, text) = (registry(), preset(&layers(32)));
+    let preset = Preset::parse("look.ron", &text, &registry).unwrap();
+    let files = in_folder(&folder("uncounted"));
+    preset.check_scene("look.ron", &text, &files).unwrap();
+    let said = mistakes(&layers(33), "uncounted-more");
     assert_eq!(said.matches("only the first").count(), 1, "{said}");
 }
 

@@ -84,32 +84,44 @@ impl Light {
     ) {
         let width = picture.width as usize;
         let rows = picture.pixels.par_chunks_mut(width).enumerate();
+        let colors = lines.iter().map(|lines| {
+            let [red, green, blue] = lines.color;
+            mean((0..samples).map(|_| [red, green, blue, 1.0]), samples)
+        });
+        let colors: Vec<[f32; 4]> = colors.collect();
         rows.for_each(|(y, pixels)| {
             for (word, pixels) in pixels.chunks_mut(64).enumerate() {
-                let sets = lines.iter().flat_map(|lines| &lines.set);
-                let mut left = sets.fold(0, |all, covered| all | covered.row(y)[word]);
-                while left != 0 {
-                    let bit = left.trailing_zeros() as usize;
-                    left &= left - 1;
+                // Pixels that are still to be drawn, and of these those where a line covers all samples, as most of a wide one do.
+                let mut left = 0;
+                for (lines, color) in lines.iter().zip(&colors) {
+                    let (mut some, mut all) = (0, u64::MAX);
+                    for covered in &lines.set {
+                        let own = covered.row(y)[word];
+                        (some, all) = (some | own, all & own);
+                    }
+                    left = (left | some) & !all;
+                    for bit in ones(all) {
+                        if let Some(pixel) = pixels.get_mut(bit) {
+                            *pixel = *color;
+                        }
+                    }
+                }
+                for bit in ones(left) {
                     let Some(pixel) = pixels.get_mut(bit) else {
                         continue; // beyond the picture
                     };
                     let drawn = self.pixel(word * 64 + bit, y, background);
-                    let mut sums = [0.0; 4];
-                    for sample in 0..samples {
+                    let values = (0..samples).map(|sample| {
                         let is_on = |lines: &&Lines| lines.set[sample].row(y)[word] >> bit & 1 != 0;
-                        let value = match lines.iter().rev().find(is_on) {
+                        match lines.iter().rev().find(is_on) {
                             Some(Lines {
                                 color: [red, green, blue],
                                 ..
                             }) => [*red, *green, *blue, 1.0],
                             None => drawn.sample(sample),
-                        };
-                        for (sum, value) in sums.iter_mut().zip(value) {
-                            *sum += value;
                         }
-                    }
-                    *pixel = sums.map(|sum| sum / samples as f32);
+                    });
+                    *pixel = mean(values, samples);
                 }
             }
         });
@@ -128,6 +140,26 @@ impl Light {
             background,
         }
     }
+}
+
+/// The places of a word's bits that are set.
+fn ones(mut word: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let bit = word.trailing_zeros() as usize;
+        word &= word.wrapping_sub(1);
+        (bit < 64).then_some(bit)
+    })
+}
+
+/// The mean of so many samples, added up in their order.
+fn mean(values: impl Iterator<Item = [f32; 4]>, samples: usize) -> [f32; 4] {
+    let mut sums = [0.0; 4];
+    for value in values {
+        for (sum, value) in sums.iter_mut().zip(value) {
+            *sum += value;
+        }
+    }
+    sums.map(|sum| sum / samples as f32)
 }
 
 /// The samples of a pixel as they were drawn.

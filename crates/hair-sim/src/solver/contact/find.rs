@@ -33,6 +33,8 @@ pub(crate) struct Ways {
     pub(super) to: Vec<Vec3>,
     /// The strands whose particle, or the link after it, may come near a body.
     pub(super) near: Vec<Mask>,
+    /// The strands of which a particle or a link may come near each body.
+    meets: Vec<Mask>,
     /// How far the strands' roots are from the surface of each body that they are in when the step ends, in m; infinity of the others.
     roots: Vec<Lane>,
     /// How many particles from the root on are in each mesh of its own when the step starts, where the root is.
@@ -46,6 +48,7 @@ impl Ways {
             from: vec![Vec3::ZERO; count],
             to: vec![Vec3::ZERO; count],
             near: vec![Mask::NONE; count],
+            meets: Vec::new(),
             roots: Vec::new(),
             under: Vec::new(),
         }
@@ -65,6 +68,7 @@ impl Ways {
         self.under.clear();
         for (index, body) in bodies.colliders.iter().enumerate() {
             let may_be_worn = may_be_worn(index, body, bodies.of_one_figure);
+            let lanes = lanes.and(self.meets[index]);
             self.under.push(std::array::from_fn(|lane| {
                 let holds = |at: DVec3, up_to: f64| at_start(body, at).1 < up_to;
                 if !may_be_worn || !lanes.get(lane) || !holds(bodies.before.get(lane), 0.0) {
@@ -88,6 +92,17 @@ impl Ways {
             .iter()
             .zip(&self.roots)
             .map(move |(body, roots)| (body, roots[lane]))
+    }
+
+    /// The same of the bodies that a strand may meet, by their numbers. By those that others beside it in the batch meet it would move otherwise than beside others.
+    fn met<'a, 'b>(
+        &self,
+        colliders: &'b [Collider<'a>],
+        lane: usize,
+    ) -> impl Iterator<Item = (usize, (&'b Collider<'a>, f64))> {
+        self.of_root(colliders, lane)
+            .enumerate()
+            .filter(move |(body, _)| self.meets[*body].get(lane))
     }
 }
 
@@ -358,13 +373,19 @@ fn detect_with_links<T: Number>(
             let known = T::condition(&Mask::new(state.restart).not());
             let count = batch.count();
             let mut any = Mask::NONE;
+            let mut meets = std::mem::take(&mut ways.meets);
+            meets.clear();
+            meets.resize(bodies.guards.len(), Mask::NONE);
             for k in 0..count {
                 let [from, to] = way::<T>(k, state, bodies, known);
                 (ways.from[k], ways.to[k]) = (from.store(), to.store());
-                let near = ways.near::<T>(k, (batch, state), bodies).and(active);
+                let own = active.and(Mask::new(batch.counts.map(|count| k < count)));
+                let note = |body: usize, near: Mask| meets[body] = meets[body].or(near.and(own));
+                let near = ways.near::<T>(k, (batch, state), bodies, note).and(active);
                 ways.near[k] = near;
                 any = any.or(near);
             }
+            ways.meets = meets;
             if !any.any() {
                 for lift in lifts {
                     *lift = active.pick(Lane::ZERO, *lift);
@@ -418,13 +439,14 @@ fn detect_with_links<T: Number>(
 }
 
 impl Ways {
-    /// The strands whose particle `k`, or a link beside it, may come near a body.
+    /// The strands whose particle `k`, or a link beside it, may come near a body; `note` is told of each body which.
     #[inline(always)]
     pub(super) fn near<T: Number>(
         &self,
         k: usize,
         (batch, state): (&Batch, &BatchState),
         bodies: &Bodies,
+        mut note: impl FnMut(usize, Mask),
     ) -> Mask {
         // No place of a link is farther from the nearer of its ends.
         let next = batch
@@ -437,9 +459,11 @@ impl Ways {
         let half = longer * T::splat(0.5);
         let (from, to) = (self.from[k].load::<T>(), self.to[k].load());
         let mut near = Mask::NONE;
-        for guard in bodies.guards {
+        for (body, guard) in bodies.guards.iter().enumerate() {
             let keep = if guard.has_links { keep + half } else { keep };
-            near = near.or(guard.is_near(from, to, keep));
+            let own = guard.is_near(from, to, keep);
+            note(body, own);
+            near = near.or(own);
         }
         near
     }
@@ -472,7 +496,7 @@ impl Looked<'_> {
             return None;
         }
         let ends = [self.path(k - 1, lane), self.path(k, lane)];
-        let colliders = self.ways.of_root(self.bodies.colliders, lane);
+        let colliders = self.ways.met(self.bodies.colliders, lane);
         Lack::deepest(colliders, ends, self.batch.links[k].length[lane])
     }
 
@@ -502,8 +526,7 @@ impl Looked<'_> {
         } else if depth < -clear {
             *last_lift = last_lift.min(need);
         }
-        let colliders = self.ways.of_root(self.bodies.colliders, lane);
-        for (index, (collider, root)) in colliders.enumerate() {
+        for (index, (collider, root)) in self.ways.met(self.bodies.colliders, lane) {
             if k < self.ways.under[index][lane] {
                 continue;
             }

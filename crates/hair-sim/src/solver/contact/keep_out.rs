@@ -58,7 +58,7 @@ pub(crate) fn keep_out<T: Number>(
                 ways.near[k] = Mask::NONE;
                 if off.and(active).any() {
                     ways.near[k] = ways
-                        .near::<T>(k, (batch, state), bodies)
+                        .near::<T>(k, (batch, state), bodies, |_, _| ())
                         .and(off)
                         .and(active);
                     near = near.or(ways.near[k]);

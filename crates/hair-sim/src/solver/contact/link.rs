@@ -34,14 +34,14 @@ pub(super) struct Lack {
 }
 
 impl Lack {
-    /// Of the link between two particles with these ways, `length` metres long, in bodies in which the strand's root is so deep each.
+    /// Of the link between two particles with these ways, `length` metres long, in bodies of these numbers in which the strand's root is so deep each.
     pub(super) fn deepest<'a: 'b, 'b>(
-        colliders: impl Iterator<Item = (&'b Collider<'a>, f64)>,
+        colliders: impl Iterator<Item = (usize, (&'b Collider<'a>, f64))>,
         ends: [Path; 2],
         length: f64,
     ) -> Option<Self> {
         let mut deepest: Option<Self> = None;
-        for (body, (collider, root)) in colliders.enumerate() {
+        for (body, (collider, root)) in colliders {
             // The distances of a grid turn at every cell: hair that lies on it would tremble with what they say of links.
             if collider.shape.is_sampled() {
                 continue;
@@ -215,7 +215,7 @@ mod tests {
         let still = |at: DVec3| path(at, at);
         let of = |ends: [Path; 2]| {
             let far = colliders.iter().map(|body| (body, f64::INFINITY));
-            Lack::deepest(far, ends, 0.02)
+            Lack::deepest(far.enumerate(), ends, 0.02)
         };
         let (x, y) = (0.01, 0.0398);
         let across = of([-x, x].map(|x| still(DVec3::new(x, y, 0.0)))).unwrap();
