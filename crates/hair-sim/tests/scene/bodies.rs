@@ -138,21 +138,7 @@ fn a_mesh_is_as_the_ball_that_it_shows() {
 #[test]
 fn nothing_holds_hair_where_a_grid_ends() {
     // A board of which the far end is as far away as hair reaches.
-    let corner = |i: u32| {
-        let side = |bit: u32| if i & bit == 0 { -1.0 } else { 1.0 };
-        Vec3::new(0.06 * side(1), 0.15 * side(2), 0.15 * side(4))
-    };
-    let points: Vec<Vec3> = (0..8).map(corner).collect();
-    let walls = [
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-    ];
-    let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
-    let triangles: Vec<[u32; 3]> = walls.into_iter().flat_map(halves).collect();
+    let (points, triangles) = block(Vec3::new(0.06, 0.15, 0.15));
     let grid = SignedDistance::new(&points, &triangles, 0.004).unwrap();
     let rest = straight(Vec3::new(-0.0715, 0.1, 0.0), Vec3::NEG_Y);
     let strand = Params {
@@ -174,6 +160,62 @@ fn nothing_holds_hair_where_a_grid_ends() {
         println!("blown {way:.3} m away from a mesh: {apart:.1e} m from where it is without");
         assert!(way > 0.005 && apart < 1e-4, "{way} {apart}");
     }
+}
+
+/// What comes over a strand, past its own middle, has all of it come out in front, where the root is: in part on the other side it would hang for good.
+#[test]
+fn what_a_thick_mesh_swallows_comes_out_where_it_went_in() {
+    let (points, triangles) = block(Vec3::new(0.1, 0.5, 0.5));
+    let grid = SignedDistance::new(&points, &triangles, 0.01).unwrap();
+    let at = |x: f64| Pose {
+        translation: DVec3::X * x,
+        ..Pose::IDENTITY
+    };
+    // The first body is the figure's.
+    let figure = Collider::fixed(BALL, at(-10.0));
+    let rest = straight(Vec3::new(-0.005, 0.0, 0.0), Vec3::X);
+    for rate in [24.0, 60.0] {
+        let (mut solver, mut state) = Solver::new(&rest, &params(200.0)).unwrap();
+        let place = at(0.1);
+        let wall = |pose| [figure.clone(), Collider::fixed(Shape::Grid(&grid), pose)];
+        let mut go = |pose, seconds: f64| {
+            let colliders = wall(pose);
+            let steps = (seconds * rate) as usize;
+            run(
+                &mut solver,
+                &mut state,
+                &among(&colliders),
+                1.0 / rate,
+                steps,
+            );
+            shape(&solver, &state)
+        };
+        let before = go(at(10.0), 1.0 / rate);
+        assert!(before[20].x > 0.19, "{}", before[20]);
+        let after = go(place, 2.0);
+        let farthest = after.iter().map(|at| at.x).fold(f64::MIN, f64::max);
+        println!("1/{rate} s: {:.1} mm past the front", farthest * 1e3);
+        assert!(farthest < 2e-3, "{farthest}");
+    }
+}
+
+/// A mesh of so much to either side of its middle, m.
+fn block(half: Vec3) -> (Vec<Vec3>, Vec<[u32; 3]>) {
+    let corner = |i: u32| {
+        let side = |bit: u32| if i & bit == 0 { -1.0 } else { 1.0 };
+        half * Vec3::new(side(1), side(2), side(4))
+    };
+    let walls = [
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+    ];
+    let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
+    let triangles = walls.into_iter().flat_map(halves).collect();
+    ((0..8).map(corner).collect(), triangles)
 }
 
 fn mesh() -> (Vec<Vec3>, Vec<[u32; 3]>) {

@@ -39,6 +39,15 @@ pub(crate) struct Ways {
     roots: Vec<Lane>,
     /// How many particles from the root on are in each mesh of its own when the step starts, where the root is.
     under: Vec<[usize; LANES]>,
+    /// Of each mesh of its own the last particle that is in it when the step starts, of those that were looked at.
+    inside: Vec<[Option<Inside>; LANES]>,
+}
+
+/// A particle that is in a mesh when a step starts, and its way out, in the mesh's space.
+#[derive(Clone, Copy, Debug)]
+struct Inside {
+    particle: usize,
+    way_out: DVec3,
 }
 
 impl Ways {
@@ -51,6 +60,7 @@ impl Ways {
             meets: Vec::new(),
             roots: Vec::new(),
             under: Vec::new(),
+            inside: Vec::new(),
         }
     }
 
@@ -334,6 +344,7 @@ fn detect_alone<T: Number>(
                         push_out: PUSH_OUT,
                         lift: 0.0,
                         leads_out: f64::INFINITY,
+                        way_out: None,
                         dt: bodies.dt,
                     };
                     let Some((collider, plane)) = path.first(bodies.colliders) else {
@@ -394,6 +405,9 @@ fn detect_with_links<T: Number>(
             }
             ways.look_at_roots::<T>(bodies);
             ways.look_under(batch, bodies, any);
+            let mut inside = std::mem::take(&mut ways.inside);
+            inside.clear();
+            inside.resize(bodies.colliders.len(), [None; LANES]);
             let looked = Looked {
                 batch,
                 state,
@@ -419,7 +433,7 @@ fn detect_with_links<T: Number>(
                         continue;
                     }
                     let lift = &mut lifts[k][lane];
-                    let of = (lift, &mut bodies_near[lane]);
+                    let of = (lift, &mut bodies_near[lane], &mut inside[..]);
                     let [surface, second] = looked.particle(k, lane, [last, after], of);
                     let Some(surface) = surface else { continue };
                     found += 1;
@@ -433,6 +447,7 @@ fn detect_with_links<T: Number>(
                     }
                 }
             }
+            ways.inside = inside;
             found
         },
     )
@@ -486,6 +501,7 @@ impl Looked<'_> {
             push_out: WEDGED_OUT,
             lift: 0.0,
             leads_out: LEADS_OUT * self.batch.along[k][lane],
+            way_out: None,
             dt: self.bodies.dt,
         }
     }
@@ -500,14 +516,34 @@ impl Looked<'_> {
         Lack::deepest(colliders, ends, self.batch.links[k].length[lane])
     }
 
-    /// The planes of particle `k`, between links that lack this, where `last_lift` is by how much it was farther from a body than it would be alone, and `near` the bodies that have any: that which
-    /// it is deepest behind, and the one of another body. Held by one alone, what lies between two bodies would be thrown from one to the other for ever. Another body's gives way to the figure's.
+    /// The way by which particle `k` leaves a mesh of its own that it is in when the step starts; nothing where it isn't. Beyond the mesh's middle the shortest way leads out on the other side, and
+    /// a strand that goes through the mesh would stay in it for good: what comes after a particle that is in it, too, leaves it by that one's way.
+    fn way_out(k: usize, from: DVec3, body: &Collider, last: &mut Option<Inside>) -> Option<DVec3> {
+        let before = last.take().filter(|before| before.particle + 1 == k);
+        let (from, distance) = at_start(body, from);
+        if distance >= 0.0 {
+            return None;
+        }
+        let shortest = body.at_start().normal(from);
+        let way_out = match before {
+            Some(before) if before.way_out.dot(shortest) < 0.0 => before.way_out,
+            _ => shortest,
+        };
+        *last = Some(Inside {
+            particle: k,
+            way_out,
+        });
+        Some(way_out)
+    }
+
+    /// The planes of particle `k`, between links that lack this, where `last_lift` is by how much it was farther from a body than it would be alone, `near` the bodies that have any, and `inside` the
+    /// last particle in each mesh: that which it is deepest behind, and the one of another body. Held by one alone, what lies between two bodies would be thrown from one to the other for ever. Another body's gives way to the figure's.
     fn particle(
         &self,
         k: usize,
         lane: usize,
         links: [Option<Lack>; 2],
-        (last_lift, near): (&mut f64, &mut Near),
+        (last_lift, near, inside): (&mut f64, &mut Near, &mut [[Option<Inside>; LANES]]),
     ) -> [Option<Surface>; 2] {
         let path = self.path(k, lane);
         let [mut best, mut second]: [Option<(usize, Plane)>; 2] = [None, None];
@@ -533,6 +569,10 @@ impl Looked<'_> {
             let lift = if index == of { *last_lift } else { 0.0 };
             let path = Path {
                 push_out: self.bodies.push_out(index),
+                way_out: match may_be_worn(index, collider, self.bodies.of_one_figure) {
+                    true => Self::way_out(k, path.from, collider, &mut inside[index][lane]),
+                    false => None,
+                },
                 ..path.led_out(root)
             };
             let lifted = Path {

@@ -248,6 +248,7 @@ mod tests {
                 push_out: PUSH_OUT,
                 lift: 0.0,
                 leads_out: 0.0,
+                way_out: None,
                 dt: 0.01,
             };
             let keep = Lane::splat(path.keep);

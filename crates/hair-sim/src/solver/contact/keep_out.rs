@@ -274,6 +274,7 @@ impl Link {
                 push_out: PUSH_OUT,
                 lift: 0.0,
                 leads_out: self.leads_out[1],
+                way_out: None,
                 dt: self.dt,
             };
             let is_in = keep - distance > deepest.0;

@@ -210,6 +210,7 @@ mod tests {
             push_out: PUSH_OUT,
             lift: 0.0,
             leads_out: 0.0,
+            way_out: None,
             dt: 1.0 / 60.0,
         };
         let still = |at: DVec3| path(at, at);

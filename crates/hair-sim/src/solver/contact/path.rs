@@ -23,6 +23,8 @@ pub(super) struct Path {
     /// How much farther out of a body than the root of its strand it may have to be, in m: [`LEADS_OUT`](crate::LEADS_OUT) of the hair
     /// between them.
     pub leads_out: f64,
+    /// The way out of a body that it begins in, in the body's space, where that isn't the shortest.
+    pub way_out: Option<DVec3>,
     pub dt: f64,
 }
 
@@ -101,7 +103,7 @@ impl Path {
         let start = was.distance(from) - self.keep;
         if start <= TOUCH {
             // It touches already. The surface near the end, where that is the same side.
-            let first = was.normal(from);
+            let first = self.way_out.unwrap_or_else(|| was.normal(from));
             let (place, end) = self.slide(shape, (from, first), (to, end));
             let last = self.surface(shape, place, end);
             let (at, normal) = if first.dot(last.1) > 0.5 {
