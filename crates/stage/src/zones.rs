@@ -31,7 +31,7 @@ pub(crate) fn left_out_by(hair: &HairModel, look: &Look) -> Vec<u32> {
 ///
 /// # Errors
 ///
-/// Names of which the preset's own style has no zone, and zones of layers behind the 32nd.
+/// Names of which the preset's own style has no zone, and zones of layers behind the 32nd of those that draw strokes.
 pub(crate) fn check(
     layers: &[LayerSpec],
     (hair, look): (&HairModel, &Look),

@@ -164,7 +164,7 @@ fn nothing_holds_hair_where_a_grid_ends() {
 
 /// What comes over a strand, past its own middle, has all of it come out in front, where the root is: in part on the other side it would hang for good.
 #[test]
-fn what_a_thick_mesh_swallows_comes_out_where_it_went_in() {
+fn what_a_wall_swallows_comes_out_where_it_went_in() {
     let (points, triangles) = block(Vec3::new(0.1, 0.5, 0.5));
     let grid = SignedDistance::new(&points, &triangles, 0.01).unwrap();
     let at = |x: f64| Pose {
@@ -310,6 +310,41 @@ fn a_style_that_starts_inside_a_body_stays_where_it_is() {
     run(&mut solver, &mut state, &surroundings, 1.0 / 24.0, 240);
     let moved = farthest(&before, &shape(&solver, &state));
     assert!(moved < 1e-9, "{moved}");
+}
+
+/// Straight through a wall, from one side of it to the other, and on a windy day.
+#[test]
+fn a_style_that_goes_through_a_wall_stays_in_it() {
+    let (points, triangles) = block(Vec3::new(0.05, 0.5, 0.5));
+    let grid = SignedDistance::new(&points, &triangles, 0.01).unwrap();
+    let figure = Collider::fixed(
+        BALL,
+        Pose {
+            translation: DVec3::X * -10.0,
+            ..Pose::IDENTITY
+        },
+    );
+    let colliders = [figure, Collider::fixed(Shape::Grid(&grid), Pose::IDENTITY)];
+    let p = Params {
+        natural: hair_sim::Natural::Balanced,
+        ..params(5.0)
+    };
+    let rest = straight(Vec3::new(-0.1, 0.0, 0.0), Vec3::X);
+    for steady in [-0.3, 0.3] {
+        let (mut solver, mut state) = Solver::new(&rest, &p).unwrap();
+        let before = shape(&solver, &state);
+        let surroundings = Surroundings {
+            colliders: &colliders,
+            ..in_wind(Wind {
+                steady: DVec3::new(steady, 0.0, 0.05),
+                ..Wind::default()
+            })
+        };
+        run(&mut solver, &mut state, &surroundings, 1.0 / 24.0, 240);
+        let moved = farthest(&before, &shape(&solver, &state));
+        println!("moved by {:.1} mm", moved * 1e3);
+        assert!(moved < 1e-3, "{moved}");
+    }
 }
 
 #[test]

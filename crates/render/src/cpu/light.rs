@@ -91,7 +91,7 @@ impl Light {
         let colors: Vec<[f32; 4]> = colors.collect();
         rows.for_each(|(y, pixels)| {
             for (word, pixels) in pixels.chunks_mut(64).enumerate() {
-                // Pixels that are still to be drawn, and of these those where a line covers all samples, as most of a wide one do.
+                // Pixels whose samples have to be mixed: where a line covers all of them, as most of a wide one do, its colour is put in at once.
                 let mut left = 0;
                 for (lines, color) in lines.iter().zip(&colors) {
                     let (mut some, mut all) = (0, u64::MAX);

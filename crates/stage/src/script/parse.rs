@@ -50,9 +50,9 @@ section! {
     struct KeyFields {
         /// When the head is there.
         time: f32 = number(0.0, 0.0..=FOREVER).unit("s"),
-        /// Turns towards the character's left, up, and towards the left shoulder.
+        /// Turns of the head, on shoulders that stay, towards the character's left, up, and towards the left shoulder.
         turn: [f32; 3] = triple([0.0; 3], -3600.0..=3600.0).unit("degrees"),
-        /// Where the head is moved to: left, up, forwards.
+        /// Where the figure is moved to, shoulders and all: left, up, forwards.
         shift: [f32; 3] = triple([0.0; 3], -1000.0..=1000.0).unit("head heights"),
     }
 }

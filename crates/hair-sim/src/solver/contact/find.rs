@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::{
-    collision::shape::{Collider, LEADS_OUT},
+    collision::shape::{Collider, LEADS_OUT, Shape},
     lanes::{LANES, Lane, Mask, Number, Vec3},
 };
 
@@ -39,15 +39,32 @@ pub(crate) struct Ways {
     roots: Vec<Lane>,
     /// How many particles from the root on are in each mesh of its own when the step starts, where the root is.
     under: Vec<[usize; LANES]>,
-    /// Of each mesh of its own the last particle that is in it when the step starts, of those that were looked at.
+    /// Of each mesh of its own the particle that was looked at last, where that is in it when the step starts.
     inside: Vec<[Option<Inside>; LANES]>,
 }
 
-/// A particle that is in a mesh when a step starts, and its way out, in the mesh's space.
+/// A particle that is in a mesh when a step starts.
 #[derive(Clone, Copy, Debug)]
 struct Inside {
     particle: usize,
+    /// Its place and its way out, in the mesh's space.
+    at: DVec3,
     way_out: DVec3,
+    /// Whether that isn't the shortest.
+    is_past_middle: bool,
+}
+
+impl Inside {
+    /// Whether the next particle is in the same wall of a mesh: the link between them is in it, too, and where it passes the middle that is deeper than the link is long to either side. The two
+    /// legs of a clamp are no wall, nor are both faces of a board over whose edge hair hangs.
+    fn is_in_one_wall_with(&self, next: DVec3, shape: &Shape) -> bool {
+        let deep = match self.is_past_middle {
+            true => 0.0,
+            false => 0.5 * self.at.distance(next),
+        };
+        let places = [(0.5, deep), (0.25, 0.0), (0.75, 0.0)];
+        (places.into_iter()).all(|(t, deep)| -shape.distance(self.at.lerp(next, t)) > deep)
+    }
 }
 
 impl Ways {
@@ -104,7 +121,7 @@ impl Ways {
             .map(move |(body, roots)| (body, roots[lane]))
     }
 
-    /// The same of the bodies that a strand may meet, by their numbers. By those that others beside it in the batch meet it would move otherwise than beside others.
+    /// The same of the bodies that a strand may meet, by their numbers, and not of those that only others in its batch may: else which strands share a batch would count.
     fn met<'a, 'b>(
         &self,
         colliders: &'b [Collider<'a>],
@@ -516,24 +533,26 @@ impl Looked<'_> {
         Lack::deepest(colliders, ends, self.batch.links[k].length[lane])
     }
 
-    /// The way by which particle `k` leaves a mesh of its own that it is in when the step starts; nothing where it isn't. Beyond the mesh's middle the shortest way leads out on the other side, and
-    /// a strand that goes through the mesh would stay in it for good: what comes after a particle that is in it, too, leaves it by that one's way.
-    fn way_out(k: usize, from: DVec3, body: &Collider, last: &mut Option<Inside>) -> Option<DVec3> {
+    /// The way by which particle `k`, whose plane of a mesh of its own is known, leaves the mesh in place of the shortest one: that of the particle before it. Beyond the middle of a wall the shortest
+    /// way leads out on the other side, and a strand that a wall came over would hang in it for good, pulled to both sides. What may be in the mesh takes no other way.
+    fn way_out(k: usize, path: &Path, body: &Collider, last: &mut Option<Inside>) -> Option<DVec3> {
         let before = last.take().filter(|before| before.particle + 1 == k);
-        let (from, distance) = at_start(body, from);
-        if distance >= 0.0 {
+        let (at, distance) = at_start(body, path.from);
+        if distance >= 0.0 || path.keep < 0.0 {
             return None;
         }
-        let shortest = body.at_start().normal(from);
-        let way_out = match before {
-            Some(before) if before.way_out.dot(shortest) < 0.0 => before.way_out,
-            _ => shortest,
-        };
+        let shape = body.at_start();
+        let shortest = shape.normal(at);
+        let taken = before.filter(|before| {
+            before.way_out.dot(shortest) < 0.0 && before.is_in_one_wall_with(at, shape)
+        });
         *last = Some(Inside {
             particle: k,
-            way_out,
+            at,
+            way_out: taken.map_or(shortest, |before| before.way_out),
+            is_past_middle: taken.is_some(),
         });
-        Some(way_out)
+        taken.map(|before| before.way_out)
     }
 
     /// The planes of particle `k`, between links that lack this, where `last_lift` is by how much it was farther from a body than it would be alone, `near` the bodies that have any, and `inside` the
@@ -569,10 +588,6 @@ impl Looked<'_> {
             let lift = if index == of { *last_lift } else { 0.0 };
             let path = Path {
                 push_out: self.bodies.push_out(index),
-                way_out: match may_be_worn(index, collider, self.bodies.of_one_figure) {
-                    true => Self::way_out(k, path.from, collider, &mut inside[index][lane]),
-                    false => None,
-                },
                 ..path.led_out(root)
             };
             let lifted = Path {
@@ -584,7 +599,14 @@ impl Looked<'_> {
                 .iter()
                 .flatten()
                 .filter_map(|lack| lack.plane(index, &path, collider));
-            let planes = crossed.chain(lifted.against(collider));
+            let mut own = lifted.against(collider);
+            if own.is_some() && may_be_worn(index, collider, self.bodies.of_one_figure) {
+                let way_out = Self::way_out(k, &path, collider, &mut inside[index][lane]);
+                if way_out.is_some() {
+                    own = Path { way_out, ..lifted }.against(collider);
+                }
+            }
+            let planes = crossed.chain(own);
             let Some(plane) = planes.reduce(|a, b| if b.depth > a.depth { b } else { a }) else {
                 continue;
             };
@@ -616,5 +638,74 @@ impl Looked<'_> {
             }
         }
         surfaces
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::SignedDistance;
+    use glam::Vec3 as Point;
+
+    /// The grid of blocks, each between two corners, one beside the other.
+    fn blocks(corners: &[[Point; 2]]) -> SignedDistance {
+        let walls = [
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+        ];
+        let (mut points, mut triangles): (Vec<Point>, Vec<[u32; 3]>) = Default::default();
+        for corners in corners {
+            let first = points.len() as u32;
+            let end = |i: usize, bit: usize| usize::from(i & bit != 0);
+            points.extend((0..8).map(|i| {
+                Point::new(
+                    corners[end(i, 1)].x,
+                    corners[end(i, 2)].y,
+                    corners[end(i, 4)].z,
+                )
+            }));
+            for [a, b, c, d] in walls {
+                triangles.push([a, b, c].map(|corner| first + corner));
+                triangles.push([a, c, d].map(|corner| first + corner));
+            }
+        }
+        SignedDistance::new(&points, &triangles, 0.002).unwrap()
+    }
+
+    #[test]
+    fn a_wall_is_told_from_a_board_and_a_clamp() {
+        let block = |from: f32, to: f32| [Point::new(from, -0.1, -0.1), Point::new(to, 0.1, 0.1)];
+        let (wall, board) = (
+            blocks(&[block(-0.03, 0.03)]),
+            blocks(&[block(-0.004, 0.004)]),
+        );
+        let clamp = blocks(&[block(-0.04, -0.005), block(0.005, 0.04)]);
+        let is_one = |grid: &SignedDistance, from: [f64; 2], to: [f64; 2], is_past_middle| {
+            let [at, next] = [from, to].map(|[x, y]| DVec3::new(x, y, 0.0));
+            let inside = Inside {
+                particle: 0,
+                at,
+                way_out: DVec3::NEG_X,
+                is_past_middle,
+            };
+            inside.is_in_one_wall_with(next, &Shape::Grid(grid))
+        };
+        assert!(is_one(&wall, [-0.005, 0.0], [0.005, 0.0], false));
+        // Along its other face, once what comes before is past its middle.
+        assert!(is_one(&wall, [0.025, 0.0], [0.027, 0.01], true));
+        assert!(!is_one(&wall, [0.025, 0.0], [0.027, 0.01], false));
+        assert!(!is_one(&board, [-0.0035, 0.08], [0.0035, 0.099], false));
+        for is_past_middle in [false, true] {
+            assert!(!is_one(
+                &clamp,
+                [-0.0065, 0.0],
+                [0.0065, 0.01],
+                is_past_middle
+            ));
+        }
     }
 }

@@ -23,7 +23,7 @@ pub(super) struct Path {
     /// How much farther out of a body than the root of its strand it may have to be, in m: [`LEADS_OUT`](crate::LEADS_OUT) of the hair
     /// between them.
     pub leads_out: f64,
-    /// The way out of a body that it begins in, in the body's space, where that isn't the shortest.
+    /// The way out of a body that it begins in, in the body's space; nothing where that is the shortest.
     pub way_out: Option<DVec3>,
     pub dt: f64,
 }
