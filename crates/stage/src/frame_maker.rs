@@ -42,6 +42,8 @@ pub struct FrameMaker {
     /// Of each object the hair's strands, then those of the last frame's made paths.
     strands: Vec<StrandInfo>,
     paths: Paths,
+    /// Working memory: paths that are made beside each other.
+    parts: Vec<Paths>,
     /// Material normals of the paths' joints; empty where nothing reads them.
     normals: Vec<Vec3>,
     /// Where the joints' hair is at rest; empty where nothing reads it.
@@ -75,8 +77,6 @@ struct ObjectFrame {
     unseen: usize,
     /// Strands that are not drawn, as hair is thin.
     merged: usize,
-    /// Paths that are made beside each other.
-    parts: Vec<Paths>,
     /// Its hair's strands, and its joints.
     strands: Range<usize>,
     joints: Range<usize>,
@@ -129,6 +129,7 @@ impl FrameMaker {
         let Self {
             strands,
             paths,
+            parts,
             normals,
             rest_positions,
             from_ends,
@@ -188,7 +189,8 @@ impl FrameMaker {
             let weights = reads_weights.then_some(&mut *path_weights);
             let (pushed, (seen, found)) = rayon::join(
                 || {
-                    frame.push_strands(motion, &sight, strands, paths)?;
+                    frame.push_strands(motion, &sight, strands, (&mut *parts, &mut *paths))?;
+                    let paths = (&mut *parts, &mut *paths);
                     frame.push_made_paths(motion, &sight, light, strands, paths, weights)
                 },
                 || {
@@ -391,7 +393,6 @@ impl ObjectFrame {
             left_out_by: zones::left_out_by(object.hair(), object.look()),
             unseen: 0,
             merged: 0,
-            parts: Vec::new(),
             strands: 0..0,
             joints: 0..0,
             made: ObjectPaths::default(),
@@ -405,9 +406,6 @@ impl ObjectFrame {
 
     /// Drops what was kept of another object.
     fn follow(&mut self, object: &Object) {
-        if !self.of.is_drawn_as(object) {
-            self.made.forget();
-        }
         if !self.of.has_hair_and_head_of(object) {
             self.material = None;
             self.head = None;
@@ -418,6 +416,7 @@ impl ObjectFrame {
         if !self.of.has_hair_and_head_of(object)
             || !Arc::ptr_eq(self.of.shared_look(), object.shared_look())
         {
+            self.made.forget();
             self.levels = levels_of(object);
             self.left_out_by = zones::left_out_by(object.hair(), object.look());
         }
@@ -482,7 +481,7 @@ impl ObjectFrame {
         motion: &ObjectMotion,
         sight: &Sight,
         strands: &mut Vec<StrandInfo>,
-        paths: &mut Paths,
+        (parts, paths): (&mut Vec<Paths>, &mut Paths),
     ) -> Result<(), StageError> {
         let (hair, path) = (self.of.hair(), self.of.look().path());
         let points = motion.points(&self.of);
@@ -539,7 +538,7 @@ impl ObjectFrame {
             Ok(())
         };
         let along_tangents = self.of.look().paints();
-        push_beside(&mut self.parts, sizes.len(), along_tangents, paths, push)?;
+        push_beside(parts, sizes.len(), along_tangents, paths, push)?;
         self.joints.end = paths.len();
         Ok(())
     }

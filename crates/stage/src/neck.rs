@@ -4,10 +4,10 @@ use crate::head::HeadModel;
 use crate::painted::{Moving, PaintedMesh};
 use crate::script::HeadPose;
 use crate::skeleton::Skeleton;
-use crate::solid::Solid;
+use crate::solid::{Solid, corners};
 use glam::{DQuat, DVec3, Quat, Vec3};
 use rayon::prelude::*;
-use render::{Ball, Head};
+use render::{Ball, Coverage, Head};
 
 /// Where the head turns about, from its middle, in head heights: the top of the neck.
 const PIVOT: Vec3 = Vec3::new(0.0, -0.38, -0.12);
@@ -66,7 +66,7 @@ impl Neck {
         Self {
             // A little more, for lines that are drawn around it.
             reach_m: from_pivot.fold(0.0, f32::max) + 0.02 * head.height_m,
-            solid: Solid::within(&model.mesh, head),
+            solid: Solid::within(&model.mesh, opaque(&model), head),
             shares: shares_at(&model.mesh.positions),
             patch_shares: model
                 .patches
@@ -84,6 +84,22 @@ impl Neck {
             rest: model,
         }
     }
+}
+
+/// Triangles of a head that are drawn and that nothing is seen through, where its pictures leave nothing free.
+fn opaque(model: &HeadModel) -> Vec<[Vec3; 3]> {
+    if !model.is_painted() {
+        return corners(&model.mesh.positions, &model.mesh.triangles).collect();
+    }
+    let is_whole = |mesh: &&PaintedMesh| {
+        let picture = mesh.paint.picture.as_ref();
+        let has_gaps = picture.is_some_and(|picture| picture.coverage != Coverage::Ignored);
+        mesh.section.is_none() && !mesh.is_shell && !has_gaps
+    };
+    let whole = model.painted.iter().filter(is_whole);
+    whole
+        .flat_map(|mesh| corners(&mesh.positions, &mesh.triangles))
+        .collect()
 }
 
 impl Neck {

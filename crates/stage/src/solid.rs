@@ -24,9 +24,13 @@ pub(crate) struct Solid {
 }
 
 impl Solid {
-    /// The largest ball near the head's middle that holds no part of the mesh, less a margin; none of a mesh without corners.
-    pub fn within(mesh: &Mesh, head: Head) -> Option<Self> {
-        let triangles = || (mesh.triangles.iter()).map(|t| t.map(|i| mesh.positions[i as usize]));
+    /// The largest ball near the head's middle that holds no part of the mesh, less a margin; none of a mesh without corners. `opaque` are the triangles that are drawn and that nothing is seen through.
+    pub fn within(
+        mesh: &Mesh,
+        opaque: impl IntoIterator<Item = [Vec3; 3]>,
+        head: Head,
+    ) -> Option<Self> {
+        let triangles = || corners(&mesh.positions, &mesh.triangles);
         // No point of a triangle is farther from its first corner than its longer edge there; a little more, for rounding.
         let reaches: Vec<f32> = triangles()
             .map(|[a, b, c]| 1.001 * a.distance(b).max(a.distance(c)))
@@ -62,7 +66,7 @@ impl Solid {
         }
         let (center, radius) = best;
         let mut skin_m = [f32::INFINITY; 6 * CELLS * CELLS];
-        for triangle in triangles() {
+        for triangle in opaque {
             let seen = triangle.map(|corner| (corner - center).normalize_or_zero());
             let widest = (0..3).map(|i| seen[i].distance(seen[(i + 1) % 3]));
             // Places closer to each other than half a cell.
@@ -93,6 +97,14 @@ impl Solid {
         };
         cells.all(is_covered).then_some(self.ball)
     }
+}
+
+/// The corners of triangles.
+pub(crate) fn corners<'a>(
+    positions: &'a [Vec3],
+    triangles: &'a [[u32; 3]],
+) -> impl Iterator<Item = [Vec3; 3]> + 'a {
+    (triangles.iter()).map(|triangle| triangle.map(|i| positions[i as usize]))
 }
 
 /// The cell of a direction: of the cube's faces +X, -X, +Y, -Y, +Z, -Z.
@@ -196,16 +208,25 @@ mod tests {
         }
     }
 
+    fn within(mesh: &Mesh, head: Head) -> Option<Solid> {
+        Solid::within(mesh, corners(&mesh.positions, &mesh.triangles), head)
+    }
+
     #[test]
     fn a_ball_hides_where_there_is_skin_before_it() {
         let head = Head {
             center: Vec3::new(0.05, 0.0, 0.0),
             height_m: 2.0,
         };
-        let solid = Solid::within(&cube(true), head).unwrap();
+        let solid = within(&cube(true), head).unwrap();
         let ball = solid.seen_from(Vec3::new(0.0, 0.0, 9.0), 0.1).unwrap();
         assert!(ball.radius_m > 0.9 && ball.radius_m <= PART, "{ball:?}");
-        let open = Solid::within(&cube(false), head).unwrap();
+        // Of glass in front.
+        let (whole, glass) = (cube(true), cube(false));
+        let front = corners(&glass.positions, &glass.triangles);
+        let open = Solid::within(&whole, front, head).unwrap();
+        assert_eq!(open.seen_from(Vec3::new(0.0, 0.0, 9.0), 0.1), None);
+        let open = within(&cube(false), head).unwrap();
         assert_eq!(open.seen_from(Vec3::new(0.0, 0.0, 9.0), 0.1), None);
         assert!(open.seen_from(Vec3::new(0.0, 0.0, -9.0), 0.1).is_some());
         // Within the cube, and so near that its front is cut.
@@ -220,7 +241,7 @@ mod tests {
         let strand = [[0.0, 1.68, 0.06], [0.0, 1.66, 0.11]].map(Vec3::from);
         strands.push(0, &strand, Some(9.0)).unwrap();
         let head = HairModel::new(strands, Some(&bust)).unwrap().head;
-        let solid = Solid::within(&bust.mesh, head).unwrap();
+        let solid = within(&bust.mesh, head).unwrap();
         assert!(solid.ball.radius_m > 0.2 * head.height_m, "{solid:?}");
         for eye in [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::Z, Vec3::NEG_Z] {
             assert!(

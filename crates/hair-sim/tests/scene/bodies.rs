@@ -177,7 +177,7 @@ fn what_a_wall_swallows_comes_out_where_it_went_in() {
     for rate in [24.0, 60.0] {
         let (mut solver, mut state) = Solver::new(&rest, &params(200.0)).unwrap();
         let place = at(0.1);
-        let wall = |pose| [figure.clone(), Collider::fixed(Shape::Grid(&grid), pose)];
+        let wall = |pose| [figure, Collider::fixed(Shape::Grid(&grid), pose)];
         let mut go = |pose, seconds: f64| {
             let colliders = wall(pose);
             let steps = (seconds * rate) as usize;

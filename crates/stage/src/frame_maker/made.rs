@@ -8,6 +8,7 @@ use crate::reach::Sight;
 use effects::wgsl::hash;
 use effects::{HairStrand, Layer, MadePath, MadePaths, layer_seed};
 use glam::Vec3;
+use rayon::prelude::*;
 use render::{Light, StrandInfo};
 use stroke_path::{Coarseness, Detail, PathKind, Paths};
 
@@ -42,14 +43,14 @@ impl ObjectPaths {
 }
 
 impl ObjectFrame {
-    /// Appends the paths that layers make in this light, and notes which joints each layer draws on; `weights` are those of all joints.
+    /// Appends the paths that layers make in this light, and notes which joints each layer draws on; `parts` is working memory, and `weights` are those of all joints.
     pub(super) fn push_made_paths(
         &mut self,
         motion: &ObjectMotion,
         sight: &Sight,
         light: Light,
         strands: &mut Vec<StrandInfo>,
-        paths: &mut Paths,
+        (parts, paths): (&mut Vec<Paths>, &mut Paths),
         mut weights: Option<&mut Vec<f32>>,
     ) -> Result<(), StageError> {
         let (hair, look) = (self.of.hair(), self.of.look());
@@ -136,7 +137,7 @@ impl ObjectFrame {
                 part.push_pieces(index, made.points, &[], detail, kind, sight.camera())
             };
             let (start, first_run) = (paths.len(), paths.runs.len());
-            push_beside(&mut self.parts, all.len(), look.paints(), paths, push)?;
+            push_beside(parts, all.len(), look.paints(), paths, push)?;
             if let Some(weights) = &mut weights {
                 weights.resize(start, 1.0);
                 for run in &paths.runs[first_run..] {
@@ -186,7 +187,8 @@ fn made_at_rest(
             detail: Detail::of(made.points, path, &[], Coarseness::FINE)?,
         })
     };
-    made.iter().map(with_detail).collect()
+    let made: Vec<MadePath> = made.iter().collect();
+    made.into_par_iter().map(with_detail).collect()
 }
 
 /// The number that the variations of path `number` of strand `id` hang on.

@@ -95,11 +95,11 @@ proptest! {
     fn strands_that_nobody_sees_leave_no_trace(
         look in prop::sample::select(vec!["twin-tails", "blond-fantasy", "flat-tails-red"]),
         yaw in -180.0_f32..180.0, pitch in -60.0_f32..60.0, distance in 0.1_f32..4.0,
-        x in -1.5_f32..1.5, y in -1.5_f32..1.5,
+        x in -1.5_f32..1.5, y in -1.5_f32..1.5, fov in 15.0_f32..120.0,
     ) {
         let mut scene = yardstick(look);
         let camera = &mut scene.camera;
-        (camera.yaw, camera.pitch, camera.distance) = (yaw, pitch, distance);
+        (camera.yaw, camera.pitch, camera.distance, camera.fov) = (yaw, pitch, distance, fov);
         (camera.target[0], camera.target[1]) = (x, y);
         let motion = Motion::new();
         let mut all = FrameMaker { keeps_unseen: true, ..FrameMaker::new() };

@@ -21,7 +21,7 @@ const RIGHT: u8 = 2;
 const ABOVE: u8 = 4;
 const BELOW: u8 = 8;
 pub(super) const HIDDEN: u8 = 16;
-/// Not a side: it is deeper than the middle of the head's ball, and so seen nowhere before it.
+/// Not a side: it lies beyond the middle of the head's ball, and so is seen nowhere before it.
 pub(super) const DEEP: u8 = 32;
 
 /// What strokes on some joints take of the screen around their clumps, and what hides them.
@@ -194,18 +194,19 @@ impl Room {
         }
     }
 
-    /// The sides on which all discs of joint `i` lie, which reach so far (px).
-    pub(super) fn sides(&self, frame: &Frame, joints: &Joints, i: usize, reach_px: f32) -> u8 {
+    /// The sides on which all discs of joint `i` lie, which reach so far. Behind a head that is asked of those that show beyond their clump: what shows within it does so where that does.
+    pub(super) fn sides(&self, frame: &Frame, joints: &Joints, i: usize, reach: &ReachPx) -> u8 {
         let paths = frame.paths;
-        let reach_px = reach_px + MARGIN_PX;
+        let shown_px = reach.all + MARGIN_PX;
+        let reach_px = reach.farthest() + MARGIN_PX;
         let (center, size) = (
             paths.center[i],
             frame.camera.size_px().map(|side| side as f32),
         );
         let side = |is_there: bool, side: u8| if is_there { side } else { 0 };
         let nearest_m = paths.depth[i] - joints.clump_radius[i] * self.unit_m - self.decals_m;
-        let is_hidden = |shadow: &Shadow| shadow.holds(center, reach_px, nearest_m);
-        let is_deep = |shadow: &Shadow| nearest_m >= shadow.depth_m;
+        let is_hidden = |shadow: &Shadow| shadow.holds(center, shown_px, nearest_m);
+        let is_deep = |shadow: &Shadow| shadow.is_deep(center, shown_px, nearest_m);
         side(center.x < -reach_px, LEFT)
             | side(center.x > size[0] + reach_px, RIGHT)
             | side(center.y < -reach_px, ABOVE)
@@ -244,4 +245,11 @@ pub(super) struct ReachPx {
     pub(super) within: f32,
     /// The clump's.
     pub(super) clump: f32,
+}
+
+impl ReachPx {
+    /// How far any reach.
+    pub(super) fn farthest(&self) -> f32 {
+        self.all.max(self.within)
+    }
 }

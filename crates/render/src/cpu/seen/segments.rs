@@ -42,7 +42,7 @@ impl Segments {
         sides.clear();
         let shown_by_itself = HIDDEN & !hides;
         let of_joint =
-            |(i, reach): (usize, &ReachPx)| room.sides(view.frame, view.joints, i, reach.all);
+            |(i, reach): (usize, &ReachPx)| room.sides(view.frame, view.joints, i, reach);
         sides.extend(joints.map(|joint| of_joint(joint) & !shown_by_itself));
         // One joint alone is a segment from itself to itself.
         let last = sides.len() - 1;
