@@ -1,6 +1,6 @@
-use super::{grid::SignedDistance, shape::Shape};
+use super::{blocks::blocks, grid::SignedDistance, shape::Shape};
 use crate::lanes::{Lane, Vec3 as LaneVec3};
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use proptest::prelude::*;
 
 fn vector(size: f64) -> impl Strategy<Value = DVec3> {
@@ -12,22 +12,7 @@ const HALF: DVec3 = DVec3::new(0.06, 0.04, 0.09);
 
 /// A box of twelve triangles.
 fn grid(cell: f64) -> SignedDistance {
-    let corner = |i: u32| {
-        let side = |bit: u32| if i & bit == 0 { -1.0 } else { 1.0 };
-        (HALF * DVec3::new(side(1), side(2), side(4))).as_vec3()
-    };
-    let points: Vec<Vec3> = (0..8).map(corner).collect();
-    let walls = [
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-    ];
-    let triangles: Vec<[u32; 3]> = (walls.iter())
-        .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]])
-        .collect();
+    let (points, triangles) = blocks(&[[-HALF.as_vec3(), HALF.as_vec3()]]);
     SignedDistance::new(&points, &triangles, cell).unwrap()
 }
 

@@ -364,6 +364,7 @@ fn nearest_on_line(from: DVec3, to: DVec3, at: DVec3) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::collision::blocks::blocks;
 
     #[test]
     fn distances_of_balls_and_capsules() {
@@ -440,18 +441,7 @@ mod tests {
     #[test]
     fn a_form_changes_by_as_much_as_its_surface_moves() {
         let [small, large] = [0.1, 0.13].map(|side: f32| {
-            let corner = |i: u32| Vec3::new((i & 1) as f32, (i >> 1 & 1) as f32, (i >> 2) as f32);
-            let points: Vec<Vec3> = (0..8).map(|i| (corner(i) * 2.0 - 1.0) * side).collect();
-            let sides = [
-                [0, 4, 6, 2],
-                [1, 3, 7, 5],
-                [0, 1, 5, 4],
-                [2, 6, 7, 3],
-                [0, 2, 3, 1],
-                [4, 5, 7, 6],
-            ];
-            let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]];
-            let triangles: Vec<[u32; 3]> = sides.into_iter().flat_map(halves).collect();
+            let (points, triangles) = blocks(&[[Vec3::splat(-side), Vec3::splat(side)]]);
             SignedDistance::new(&points, &triangles, 0.01).expect("a cube")
         });
         let changed = |before, share| {

@@ -55,7 +55,7 @@ struct Inside {
 }
 
 impl Inside {
-    /// Whether the next particle is in the same wall of a mesh: the link between them is in it, too, and where it passes the middle that is deeper than the link is long to either side. The two
+    /// Whether the next particle is in the same wall of a mesh: the link between them is in it, too, and where it passes the wall's middle it is deeper than half of its length. The two
     /// legs of a clamp are no wall, nor are both faces of a board over whose edge hair hangs.
     fn is_in_one_wall_with(&self, next: DVec3, shape: &Shape) -> bool {
         let deep = match self.is_past_middle {
@@ -644,46 +644,18 @@ impl Looked<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::SignedDistance;
+    use crate::{SignedDistance, collision::blocks::blocks};
     use glam::Vec3 as Point;
-
-    /// The grid of blocks, each between two corners, one beside the other.
-    fn blocks(corners: &[[Point; 2]]) -> SignedDistance {
-        let walls = [
-            [0, 4, 6, 2],
-            [1, 3, 7, 5],
-            [0, 1, 5, 4],
-            [2, 6, 7, 3],
-            [0, 2, 3, 1],
-            [4, 5, 7, 6],
-        ];
-        let (mut points, mut triangles): (Vec<Point>, Vec<[u32; 3]>) = Default::default();
-        for corners in corners {
-            let first = points.len() as u32;
-            let end = |i: usize, bit: usize| usize::from(i & bit != 0);
-            points.extend((0..8).map(|i| {
-                Point::new(
-                    corners[end(i, 1)].x,
-                    corners[end(i, 2)].y,
-                    corners[end(i, 4)].z,
-                )
-            }));
-            for [a, b, c, d] in walls {
-                triangles.push([a, b, c].map(|corner| first + corner));
-                triangles.push([a, c, d].map(|corner| first + corner));
-            }
-        }
-        SignedDistance::new(&points, &triangles, 0.002).unwrap()
-    }
 
     #[test]
     fn a_wall_is_told_from_a_board_and_a_clamp() {
         let block = |from: f32, to: f32| [Point::new(from, -0.1, -0.1), Point::new(to, 0.1, 0.1)];
-        let (wall, board) = (
-            blocks(&[block(-0.03, 0.03)]),
-            blocks(&[block(-0.004, 0.004)]),
-        );
-        let clamp = blocks(&[block(-0.04, -0.005), block(0.005, 0.04)]);
+        let grid = |corners: &[[Point; 2]]| {
+            let (points, triangles) = blocks(corners);
+            SignedDistance::new(&points, &triangles, 0.002).unwrap()
+        };
+        let (wall, board) = (grid(&[block(-0.03, 0.03)]), grid(&[block(-0.004, 0.004)]));
+        let clamp = grid(&[block(-0.04, -0.005), block(0.005, 0.04)]);
         let is_one = |grid: &SignedDistance, from: [f64; 2], to: [f64; 2], is_past_middle| {
             let [at, next] = [from, to].map(|[x, y]| DVec3::new(x, y, 0.0));
             let inside = Inside {

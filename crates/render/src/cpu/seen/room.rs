@@ -194,7 +194,7 @@ impl Room {
         }
     }
 
-    /// The sides on which all discs of joint `i` lie, which reach so far. Behind a head that is asked of those that show beyond their clump: what shows within it does so where that does.
+    /// The sides on which all discs of joint `i` lie, which reach so far. Behind a head that is asked of those alone that show beyond their clump: by how much others may be wider, far more would count as seen.
     pub(super) fn sides(&self, frame: &Frame, joints: &Joints, i: usize, reach: &ReachPx) -> u8 {
         let paths = frame.paths;
         let shown_px = reach.all + MARGIN_PX;
