@@ -303,7 +303,9 @@ fn color(text: &str) -> Result<String, String> {
     Ok(hex.to_owned())
 }
 
-fn range<T: std::str::FromStr + PartialOrd>(notes: &Annotations) -> Result<(T, T), String> {
+fn range<T: std::str::FromStr + PartialOrd + Copy + Into<f64>>(
+    notes: &Annotations,
+) -> Result<(T, T), String> {
     let text = notes
         .get("range")
         .ok_or("its comment needs `@range MIN..MAX`")?;
@@ -311,8 +313,10 @@ fn range<T: std::str::FromStr + PartialOrd>(notes: &Annotations) -> Result<(T, T
         Some((min.trim().parse::<T>().ok()?, max.trim().parse::<T>().ok()?))
     });
     match bounds {
-        Some((min, max)) if min <= max => Ok((min, max)),
-        _ => Err(format!("@range {text}: a range is `MIN..MAX`")),
+        Some((min, max)) if min <= max && [min, max].iter().all(|&end| end.into().is_finite()) => {
+            Ok((min, max))
+        }
+        _ => Err(format!("@range {text}: a range is `MIN..MAX`, both finite")),
     }
 }
 

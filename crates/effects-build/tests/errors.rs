@@ -179,10 +179,18 @@ fn parameters_need_words_range_and_default() {
         let start = source.find("    /// A width.").unwrap();
         format!("{}{text}\n}}\n", &source[..start])
     };
-    let wrong: [(&str, &str); 9] = [
+    let wrong: [(&str, &str); 11] = [
         ("width: f32,", "must say what it does"),
         ("/// W.\n/// @range 0..1\nwidth: f32,", "@default VALUE"),
         ("/// W.\n/// @default 1\nwidth: f32,", "@range MIN..MAX"),
+        (
+            "/// W.\n/// @range 0..inf @default 1\nwidth: f32,",
+            "both finite",
+        ),
+        (
+            "/// W.\n/// @range 0..1e39 @default 1\nwidth: f32,",
+            "both finite",
+        ),
         (
             "/// W.\n/// @range 0..1 @default 2\nwidth: f32,",
             "not a number in its range",

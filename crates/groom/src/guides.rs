@@ -2,7 +2,6 @@
 
 mod cluster;
 mod line;
-mod nearest;
 mod shape;
 mod size;
 

@@ -37,6 +37,7 @@ mod cut;
 mod face;
 mod figure;
 mod guides;
+mod nearest;
 mod random;
 mod ribbon;
 mod shape;

@@ -1,5 +1,6 @@
 //! The head as hair sees it: a skin around a centre, by direction.
 
+use crate::nearest::Nearest;
 use crate::trig::sin_cos_degrees;
 use glam::{Vec2, Vec3};
 
@@ -29,8 +30,9 @@ pub struct Shell {
     center: Vec3,
     height: f32,
     radii: Vec<f32>,
-    /// Points of neck and shoulders, from the lowest up.
+    /// Points of neck and shoulders, in the mesh's order, and what finds the nearest of them.
     body: Vec<Skin>,
+    nearest: Nearest<3>,
 }
 
 /// A point of the skin.
@@ -39,8 +41,6 @@ struct Skin {
     point: Vec3,
     /// Unit.
     normal: Vec3,
-    /// Its place among the mesh's points.
-    index: usize,
 }
 
 impl Shell {
@@ -64,20 +64,18 @@ impl Shell {
                 enter(&mut radii, corners);
             }
         }
-        let skin = positions.iter().zip(normals).enumerate();
-        let skin = skin.map(|(index, (point, normal))| Skin {
-            point: *point,
-            normal: *normal,
-            index,
-        });
-        let is_body = |skin: &Skin| skin.point.y < center.y - 0.35 * height;
-        let mut body: Vec<Skin> = skin.filter(is_body).collect();
-        body.sort_by(|a, b| a.point.y.total_cmp(&b.point.y));
+        let skin = positions.iter().zip(normals);
+        let skin = skin.map(|(&point, &normal)| Skin { point, normal });
+        let is_body =
+            |skin: &Skin| skin.point.y < center.y - 0.35 * height && skin.point.is_finite();
+        let body: Vec<Skin> = skin.filter(is_body).collect();
+        let nearest = Nearest::new(body.iter().map(|skin| coordinates(skin.point)));
         let mut shell = Self {
             center,
             height,
             radii,
             body,
+            nearest,
         };
         shell.close_gaps();
         shell
@@ -127,10 +125,9 @@ impl Shell {
 
     /// The point of neck and shoulders that is nearest to `point`: of several, the mesh's first.
     fn nearest_of_body(&self, point: Vec3) -> Option<&Skin> {
-        let level = self.body.partition_point(|skin| skin.point.y < point.y);
-        let (below, above) = self.body.split_at(level);
-        let nearest = nearer(None, above.iter(), point);
-        nearer(nearest, below.iter().rev(), point)
+        let mut found = Vec::with_capacity(2);
+        self.nearest.find(&coordinates(point), 1, &mut found);
+        found.first().map(|(_, index)| &self.body[*index])
     }
 
     /// How far a point lies above the skin, head heights, and the direction away from the centre.
@@ -204,27 +201,8 @@ impl Shell {
     }
 }
 
-/// `nearest`, or what of the skin is nearer to `point`; of several at one distance the mesh's first. `skin` goes away from
-/// the point's height: where that alone is too far, so is all that follows.
-fn nearer<'s>(
-    mut nearest: Option<&'s Skin>,
-    skin: impl Iterator<Item = &'s Skin>,
-    point: Vec3,
-) -> Option<&'s Skin> {
-    let squared = |skin: &Skin| (skin.point - point).length_squared();
-    let mut least = nearest.map_or(f32::INFINITY, squared);
-    for skin in skin {
-        let height = skin.point.y - point.y;
-        if height * height > least {
-            break;
-        }
-        let squared = squared(skin);
-        let is_before = nearest.is_none_or(|nearest| skin.index < nearest.index);
-        if squared < least || squared == least && is_before {
-            (nearest, least) = (Some(skin), squared);
-        }
-    }
-    nearest
+fn coordinates(point: Vec3) -> [f64; 3] {
+    point.to_array().map(f64::from)
 }
 
 /// The direction of a place.
@@ -404,12 +382,13 @@ mod tests {
         for (i, x) in (0..300).zip([0.0, 0.03, -0.11, 0.4].into_iter().cycle()) {
             let (y, z) = (1.0 + 0.003 * i as f32, (i * 37 % 100) as f32 * 0.006 - 0.3);
             let point = Vec3::new(x, y, z);
+            // Of several the first.
             let nearest = shell.body.iter().min_by(|a, b| {
-                let key = |skin: &Skin| (skin.point - point).length_squared();
-                key(a).total_cmp(&key(b)).then(a.index.cmp(&b.index))
+                let key = |skin: &Skin| skin.point.as_dvec3().distance_squared(point.as_dvec3());
+                key(a).total_cmp(&key(b))
             });
-            let found = shell.nearest_of_body(point).map(|skin| skin.index);
-            assert_eq!(found, nearest.map(|skin| skin.index), "{point}");
+            let found = shell.nearest_of_body(point).map(|skin| skin.point);
+            assert_eq!(found, nearest.map(|skin| skin.point), "{point}");
         }
     }
 

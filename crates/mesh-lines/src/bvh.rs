@@ -81,6 +81,10 @@ impl Bvh {
     /// Nothing slips through between two triangles with a common edge: a ray that meets the edge meets both. Triangles
     /// along the ray are not met.
     pub fn hits(&self, surface: &Surface, ray: &Ray, mut hit: impl FnMut(Hit) -> ControlFlow<()>) {
+        // One that goes nowhere, such as a segment of what is shrunk to a point, meets nothing, and any box might hold what it meets.
+        if ray.direction == DVec3::ZERO {
+            return;
+        }
         let slabs = Slabs::of(ray, self.farthest_coordinate());
         self.0.visit(
             |bounds| slabs.may_meet(bounds),

@@ -23,8 +23,14 @@ pub(crate) fn crossings(
 ) -> Vec<Vec<f64>> {
     let mut hiding = Vec::new();
     let mut boxes = Vec::new();
+    // Segments of what is shrunk to a point are all in one place, and none crosses another.
+    let has_length = |line: &Line, segment: usize| {
+        let [from, to] = line.ends(segment).map(|end| end.position);
+        from != to
+    };
     for (number, line) in lines.iter().enumerate() {
-        for segment in (0..line.segments.len()).filter(|&i| hides(surface, view, line, i)) {
+        let segments = (0..line.segments.len()).filter(|&i| has_length(line, i));
+        for segment in segments.filter(|&i| hides(surface, view, line, i)) {
             let [from, to] = line.ends(segment).map(|end| end.position);
             hiding.push((number, segment));
             boxes.push(image_box(view, from, to));
@@ -33,7 +39,8 @@ pub(crate) fn crossings(
     let tree = Tree::new(&boxes);
     let mut crossings = vec![Vec::new(); lines.len()];
     for (number, line) in lines.iter().enumerate().filter(|(n, _)| wanted[*n]) {
-        for segment in (0..line.segments.len()).filter(|&i| !line.segments[i].is_inside(surface)) {
+        let segments = (0..line.segments.len()).filter(|&i| has_length(line, i));
+        for segment in segments.filter(|&i| !line.segments[i].is_inside(surface)) {
             let [from, to] = line.ends(segment).map(|end| end.position);
             let here = image_box(view, from, to);
             tree.visit(

@@ -5,7 +5,10 @@ use crate::{
     line::check_lines, ruler::Ruler, walk_to_zero,
 };
 use glam::DVec3;
-use std::{collections::HashMap, ops::Range};
+use std::{
+    collections::{BTreeSet, HashMap},
+    ops::Range,
+};
 
 /// How far the samples are apart by which paths remember where they were, in pixels.
 const SAMPLE_PX: f64 = 4.0;
@@ -150,12 +153,18 @@ impl Tracker {
         let uncovered = self.uncovered(&contours);
         let is_first = self.mesh.is_none();
         let mut rulers = Vec::new();
+        // In pixels, of each line once, whatever its spans.
+        let mut lengths: Vec<Option<Vec<f64>>> = vec![None; frame.lines.len()];
         for (number, span) in frame.spans.iter().enumerate() {
             let line = &frame.lines[span.line];
             if line.kind != Kind::Contour {
                 continue;
             }
-            let ruler = ruler(frame, line, span, &mut votes[number]);
+            let lengths = lengths[span.line].get_or_insert_with(|| {
+                let lengths = line.image_lengths(frame.view);
+                lengths.iter().map(|length| length / frame.pixel).collect()
+            });
+            let ruler = ruler(lengths, span, &mut votes[number]);
             if !(ruler.length().is_finite() && (ruler.length() / frame.period_px).is_finite()) {
                 return Err(MeshError::NotFinite {
                     what: "the length of span",
@@ -179,11 +188,9 @@ impl Tracker {
         if is_first {
             self.finish();
         }
-        let paths = &self.paths;
-        self.growing.retain(|id, _| {
-            let mut own = paths.iter().filter(|path| path.id == *id);
-            own.any(|path| path.shown != path.whole())
-        });
+        let unfinished = self.paths.iter().filter(|path| path.shown != path.whole());
+        let unfinished: BTreeSet<_> = unfinished.map(|path| path.id).collect();
+        self.growing.retain(|id, _| unfinished.contains(id));
         self.remember_hidden(&contours);
         Ok(&self.paths)
     }
@@ -449,9 +456,9 @@ impl<'f> Contours<'f> {
     }
 }
 
-/// How long a span is where. Of one that goes all around the beginning is where that of its path was; votes get their lengths.
-fn ruler(frame: &Frame, line: &Line, span: &Span, votes: &mut [Vote]) -> Ruler {
-    let count = line.segments.len() as f64;
+/// How long a span of a line with such segments is where. Of one that goes all around the beginning is where that of its path was; votes get their lengths.
+fn ruler(lengths: &[f64], span: &Span, votes: &mut [Vote]) -> Ruler {
+    let count = lengths.len() as f64;
     let mut whole = *span;
     if span.cuts == [Cut::None; 2] {
         let first = most_voted(votes).and_then(|id| {
@@ -462,12 +469,7 @@ fn ruler(frame: &Frame, line: &Line, span: &Span, votes: &mut [Vote]) -> Ruler {
             (whole.start, whole.end) = (first.along, first.along + count);
         }
     }
-    let lengths: Vec<f64> = line
-        .image_lengths(frame.view)
-        .iter()
-        .map(|l| l / frame.pixel)
-        .collect();
-    let ruler = Ruler::new(&lengths, whole.start..whole.end);
+    let ruler = Ruler::new(lengths, whole.start..whole.end);
     for vote in votes {
         vote.along = on_span(&whole, vote.along, count).unwrap_or(whole.start);
         vote.s = ruler.length_at(vote.along);

@@ -101,6 +101,13 @@ pub fn visible_of(
         });
     }
     check_lines(surface, lines)?;
+    // Of what is shrunk to a point, as files of characters hide parts, nothing is seen.
+    let has_length = |line: &Line| {
+        let first = line.points.first().map(|first| first.position);
+        let mut places = line.points.iter().map(|point| point.position);
+        places.any(|place| Some(place) != first)
+    };
+    let wanted = |line: &Line| wanted(line) && has_length(line);
     let wanted: Vec<bool> = lines.iter().map(wanted).collect();
     let meetings = || {
         let mut events = crossings(surface, lines, &wanted, view);

@@ -370,6 +370,34 @@ fn a_million_faces_are_read_seen_and_followed() {
     );
 }
 
+/// As files of characters hide parts: what is shrunk to a point takes no longer than where it is seen.
+#[test]
+fn what_is_shrunk_to_a_point_is_soon_done() {
+    let (mut positions, mut triangles) = (Vec::new(), Vec::new());
+    for i in 0..1_500u16 {
+        let low = Vec3::new(f32::from(i % 40), f32::from(i / 40), 0.0);
+        let one = cube(low, low + 0.5);
+        let first = positions.len() as u32;
+        positions.extend(&one.positions);
+        let own = one.topology.triangles().iter();
+        triangles.extend(own.map(|corners| corners.map(|corner| first + corner)));
+    }
+    let topology = Topology::new(&positions, &triangles).unwrap();
+    let topology = topology.with_creases(&positions, TURN_COSINE).unwrap();
+    let view = from(Vec3::new(15.0, 30.0, 60.0));
+    let took = |positions: &[Vec3]| {
+        let start = std::time::Instant::now();
+        all_of(&topology, positions, &view);
+        start.elapsed().as_secs_f32()
+    };
+    let apart_s = took(&positions);
+    let shrunk_s = took(&vec![Vec3::ONE; positions.len()]);
+    assert!(
+        shrunk_s < 2.0 * apart_s + 0.1,
+        "{shrunk_s} s, {apart_s} s where they are apart"
+    );
+}
+
 #[test]
 fn needles_and_faces_on_edge_have_lines() {
     // A fan of needles in planes through the eye, and a sheet that is seen exactly from its side.

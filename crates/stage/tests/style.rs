@@ -87,6 +87,29 @@ fn mistakes_in_styles_have_their_places() {
     ] {
         assert!(message.contains(line), "`{line}` is missing in:\n{message}");
     }
+    // A tail has no rows, whatever it says of them.
+    let message = refusal(
+        "(version: 1, zones: [
+            (name: \"a\", count: 200, rows: 32, roots: parting, hang: 1),
+            (name: \"b\", form: tail, count: 8, rows: 2, roots: [(0, 20)], hang: 1)],
+        edits: [(zone: \"b\", clump: 8)])",
+    );
+    assert!(
+        message.contains(
+            "a.style.ron:2:13: `count` 200 in 32 rows are 6400 clumps, a zone has at most 5000"
+        ),
+        "{message}"
+    );
+    assert!(
+        message.contains("the zone `b` has clumps 0 to 7, no 8"),
+        "{message}"
+    );
+    let many = "(points: [(0, 60, 0.05), (0, 20, 0.1)]),\n".repeat(5001);
+    let message = refusal(&format!("(version: 1, strands: [\n{many}])"));
+    assert!(
+        message.contains("a.style.ron:5002:1: a style has at most 5000 `strands`"),
+        "{message}"
+    );
     assert!(refusal("(zones: [])").contains("needs `version: 1`"));
     assert!(refusal("(version: 1, zonse: [])").contains("no `zonse`, did you mean `zones`?"));
     assert!(

@@ -3,7 +3,7 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use super::nearest::{Nearest, distance_squared};
+use crate::nearest::{Nearest, distance_squared};
 
 /// How often points go over to the nearest mean: twenty rounds would lower errors by 1 % more.
 const ROUNDS: usize = 6;

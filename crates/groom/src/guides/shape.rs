@@ -38,8 +38,8 @@ pub(super) fn describe(points: &[Vec3]) -> [f64; DIMENSIONS] {
 
 #[cfg(test)]
 mod tests {
-    use super::super::nearest::distance_squared;
     use super::*;
+    use crate::nearest::distance_squared;
     use proptest::prelude::*;
 
     proptest! {

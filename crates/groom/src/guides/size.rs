@@ -8,7 +8,7 @@ use hair_sim::Strands;
 
 use super::Guides;
 use super::line::{Line, resample};
-use super::nearest::{Found, Nearest};
+use crate::nearest::{Found, Nearest};
 
 /// How many neighbours [`spacing`] looks at: five of the six that a hexagonal packing has, so that
 /// one missing neighbour, at the hairline, doesn't count the next ring.

@@ -5,7 +5,7 @@ use super::line::Line;
 use super::ornament::{Accessory, TieKind};
 use super::scalp::Scalp;
 
-/// A hair style.
+/// A hair style. Lengths are in head heights, angles in degrees, radii of clumps (`size`) in 1/300 head height, where nothing else is said.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Style {
     /// Seed of all variations.
@@ -22,13 +22,14 @@ pub struct Style {
     pub zones: Vec<Zone>,
     /// Changes of single clumps of the zones.
     pub edits: Vec<Edit>,
-    /// Clumps drawn by hand.
+    /// Clumps drawn by hand, at most [`MOST_CLUMPS`](crate::MOST_CLUMPS): more would have ids of others.
     pub drawn: Vec<Drawn>,
     /// What lies on the hair.
     pub accessories: Vec<Accessory>,
 }
 
-/// Rows of clumps, or hair gathered in a tie.
+/// Rows of clumps, or hair gathered in a tie. Lengths are in head heights, angles in degrees, radii of clumps (`size`) in 1/300 head height, where
+/// nothing else is said.
 ///
 /// A clump of a row starts on the way from the line of roots to the line of tips, runs over the head to
 /// the line of tips and hangs from there. Gathered hair starts at one place, its tie.
@@ -38,7 +39,7 @@ pub struct Zone {
     pub name: String,
     /// What its hair is made into.
     pub form: Form,
-    /// Clumps of a row on each side.
+    /// Clumps of a row on each side, or of gathered hair. Of all rows at most [`MOST_CLUMPS`](crate::MOST_CLUMPS) grow.
     pub count: u32,
     /// Rows: the first starts at the line of roots, the others evenly on the way to the tips.
     pub rows: u32,

@@ -57,7 +57,7 @@ impl Grown {
         taper: Taper,
     ) {
         let id = zone.wrapping_mul(IDS_A_ZONE).wrapping_add(number);
-        // Points come from a shell of finite radii, so none is refused.
+        // Points come from a shell of finite radii: refused is a clump that somebody drew without any, and draws nothing.
         if self.strands.push(id, points, Some(size)).is_ok() {
             self.held.push(held as u32);
             self.tapers.push(taper);

@@ -177,6 +177,10 @@ impl Tie {
 
 impl Accessory {
     /// Its surface on a head; `side` is 1 on the character's left, -1 on its right.
+    ///
+    /// # Panics
+    ///
+    /// When it is [`at`](Self::at) no place.
     #[must_use]
     pub fn mesh(&self, side: f32, shell: &Shell) -> OrnamentMesh {
         let mirrored = |way: Vec3| way * Vec3::new(side, 1.0, 1.0);

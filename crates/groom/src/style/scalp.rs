@@ -71,13 +71,13 @@ impl Scalp {
     }
 
     /// The direction at share `along` (0 to 1) of a line, on the character's left (`side` 1) or its
-    /// right (-1). Whorl and parting are where they are on both sides.
+    /// right (-1). Whorl and parting are where they are on both sides. A line without places is the whorl.
     pub(super) fn direction(&self, line: &Line, along: f32, side: f32) -> Vec3 {
         let mirrored = |way: Vec3| way * Vec3::new(side, 1.0, 1.0);
         match line {
-            Line::Through(places) => mirrored(on_line(places, along)),
-            Line::Whorl => direction(self.whorl),
-            Line::Parting => on_line(&self.parting, along),
+            Line::Through(places) if !places.is_empty() => mirrored(on_line(places, along)),
+            Line::Parting if !self.parting.is_empty() => on_line(&self.parting, along),
+            Line::Whorl | Line::Through(_) | Line::Parting => direction(self.whorl),
             Line::Hairline { from, to } => {
                 let longitude = from + (to - from) * along;
                 mirrored(direction(Place {
@@ -89,7 +89,7 @@ impl Scalp {
     }
 }
 
-/// The direction at share `along` (0 to 1) of a line through these places, which are evenly spaced in
+/// The direction at share `along` (0 to 1) of a line through these places, one at least, which are evenly spaced in
 /// `along`.
 pub(super) fn on_line(line: &[Place], along: f32) -> Vec3 {
     let directions = |i: usize| direction(line[i.min(line.len() - 1)]);

@@ -3,7 +3,7 @@
 use super::lines::point;
 use effects::preset::{Field, Reader, suggestion};
 use effects::section;
-use groom::{Drawn, Edit, MOST_CLUMPS, Zone};
+use groom::{Drawn, Edit, Form, MOST_CLUMPS, Zone};
 
 section! {
     /// What an edit of one clump may say.
@@ -49,7 +49,10 @@ pub(super) fn edit<'a>(reader: &mut Reader<'a>, item: &'a str, zones: &[Zone]) -
         return None;
     };
     let clump = edit.clump;
-    let clumps = zone.count * zone.rows.max(1);
+    let clumps = match zone.form {
+        Form::Rows => zone.count * zone.rows.max(1),
+        Form::Tail | Form::Bun | Form::Braid => zone.count,
+    };
     if clump >= clumps {
         reader.error(
             item,

@@ -15,7 +15,7 @@ use clumps::{DrawnFields, EditFields};
 use effects::preset::{Field, PresetErrors, Reader};
 use effects::section;
 use glam::Vec3;
-use groom::{Scalp, Style};
+use groom::{MOST_CLUMPS, Scalp, Style};
 use zone::{ReadZone, ZoneFields};
 
 /// The newest version of styles that this build reads.
@@ -178,7 +178,14 @@ pub(crate) fn parse(file: &str, text: &str) -> Result<Written, PresetErrors> {
         }
         style.zones.push(zone);
     }
-    for item in items(&mut reader, &lists, "strands") {
+    let drawn = items(&mut reader, &lists, "strands");
+    if let Some(first) = drawn.get(MOST_CLUMPS as usize) {
+        reader.error(
+            first,
+            format!("a style has at most {MOST_CLUMPS} `strands` of its own"),
+        );
+    }
+    for item in drawn.into_iter().take(MOST_CLUMPS as usize) {
         style.drawn.push(clumps::drawn(&mut reader, item));
     }
     if style.zones.is_empty() && style.drawn.is_empty() {

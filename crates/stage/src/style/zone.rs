@@ -214,6 +214,15 @@ pub(super) fn zone<'a>(reader: &mut Reader<'a>, item: &'a str, points: u32) -> R
             "a zone needs `tips` to lead to, or a length to `hang`",
         );
     }
+    if is_rows && fields.count * fields.rows > MOST_CLUMPS {
+        let message = format!(
+            "`count` {} in {} rows are {} clumps, a zone has at most {MOST_CLUMPS}",
+            fields.count,
+            fields.rows,
+            fields.count * fields.rows
+        );
+        reader.error(item, message);
+    }
     let dynamics = ZoneDynamics {
         feel: fields.feel.feel(),
         stiffness: fields.stiffness.clone(),

@@ -3,10 +3,12 @@
 /// Points ordered so that each half of a range lies on one side of its middle point.
 ///
 /// Answers do not depend on the order of equal distances: ties go to the lower index.
-pub(super) struct Nearest<const D: usize> {
+#[derive(Clone, Debug)]
+pub(crate) struct Nearest<const D: usize> {
     nodes: Vec<Node<D>>,
 }
 
+#[derive(Clone, Debug)]
 struct Node<const D: usize> {
     point: [f64; D],
     /// The point's index in the list the tree was made from.
@@ -16,11 +18,11 @@ struct Node<const D: usize> {
 }
 
 /// A point that was found: its squared distance and its index. Nearer ones are less.
-pub(super) type Found = (f64, usize);
+pub(crate) type Found = (f64, usize);
 
 impl<const D: usize> Nearest<D> {
     /// A tree of finite points.
-    pub(super) fn new(points: impl IntoIterator<Item = [f64; D]>) -> Self {
+    pub(crate) fn new(points: impl IntoIterator<Item = [f64; D]>) -> Self {
         let node = |(index, point)| Node {
             point,
             index,
@@ -36,7 +38,7 @@ impl<const D: usize> Nearest<D> {
     ///
     /// What `found` holds already counts as found: points known to be near spare looking at others.
     /// They must be points of this tree, at their distance, none of them twice or more than `count`.
-    pub(super) fn find(&self, from: &[f64; D], count: usize, found: &mut Vec<Found>) {
+    pub(crate) fn find(&self, from: &[f64; D], count: usize, found: &mut Vec<Found>) {
         if count > 0 {
             search(&self.nodes, from, count, found);
         }
@@ -44,7 +46,7 @@ impl<const D: usize> Nearest<D> {
 }
 
 /// The squared distance between two points.
-pub(super) fn distance_squared<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
+pub(crate) fn distance_squared<const D: usize>(a: &[f64; D], b: &[f64; D]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum()
 }
 
