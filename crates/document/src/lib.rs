@@ -51,6 +51,8 @@ pub struct Document {
     /// What the author knows to be on the disk; `None` where there is no file, and he knows.
     base: Option<Arc<str>>,
     conflict: Option<Conflict>,
+    /// Whether the file as it is in a conflict begins with a mark.
+    theirs_marked: bool,
     seen: Seen,
     watch: Watch,
     recovery: Recovery,
@@ -144,6 +146,7 @@ impl Document {
             marked,
             history: History::default(),
             conflict: None,
+            theirs_marked: marked,
             seen,
             watch,
             recovery: recovery.clone(),
@@ -185,10 +188,10 @@ impl Document {
         self.version
     }
 
-    /// Whether the text is another one than was last read or saved, or its file is no longer there.
+    /// Whether the text is another one than was last read or saved, or than its file has now, or there is no file any more.
     #[must_use]
     pub fn is_changed(&self) -> bool {
-        self.conflict == Some(Conflict::Deleted) || self.was_edited()
+        self.conflict.is_some() || self.was_edited()
     }
 
     /// Whether the text is another one than was last read or saved.
@@ -239,7 +242,7 @@ impl Document {
     }
 
     /// What happened to the file since the last call, if anything did. Cheap: the file is read only after a change of it was
-    /// told, or its time or size is another one, which is looked at every second where nobody watches (else every five).
+    /// told, or its time or size is another one, which is looked at by calls a second apart where nobody watches (else five).
     pub fn poll(&mut self) -> Option<DiskChange> {
         if !self.watch.was_told(|| self.seen.is_outdated(&self.path)) {
             return None;
@@ -275,6 +278,7 @@ impl Document {
             return Some(DiskChange::Reloaded);
         }
         let conflict = Some(Conflict::Changed { on_disk: text });
+        self.theirs_marked = marked;
         if self.conflict == conflict {
             return None;
         }
@@ -313,7 +317,7 @@ impl Document {
         if let Some(Conflict::Changed { on_disk }) = &self.conflict {
             let text = on_disk.clone();
             self.conflict = None;
-            self.take_over(text, self.marked);
+            self.take_over(text, self.theirs_marked);
         }
     }
 
@@ -332,7 +336,8 @@ impl Document {
             }
             Disk::Gone => self.write()?,
             Disk::Text(on_disk, _) if on_disk == self.text => self.saved(),
-            Disk::Text(on_disk, _) if self.base.as_ref() != Some(&on_disk) => {
+            Disk::Text(on_disk, marked) if self.base.as_ref() != Some(&on_disk) => {
+                self.theirs_marked = marked;
                 self.conflict = Some(Conflict::Changed { on_disk });
                 return Err(SaveError::Conflict(self.path.clone()));
             }

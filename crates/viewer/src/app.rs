@@ -27,6 +27,8 @@ pub struct App {
     /// All but the panes.
     pub studio: Studio,
     panes: Tree<Pane>,
+    /// What was dropped and is not taken yet.
+    dropped: Vec<PathBuf>,
 }
 
 impl App {
@@ -57,6 +59,7 @@ impl App {
         Self {
             studio,
             panes: panes::first_tree(),
+            dropped: Vec::new(),
         }
     }
 
@@ -68,11 +71,17 @@ impl App {
 
     /// Files that were dropped on the window.
     fn take_dropped(&mut self, ctx: &Context) {
-        let dropped: Vec<PathBuf> = ctx.input(|input| {
+        ctx.input(|input| {
             let files = input.raw.dropped_files.iter();
-            files.map(|file| file.path().to_owned()).collect()
+            self.dropped
+                .extend(files.map(|file| file.path().to_owned()));
         });
-        if !dropped.is_empty() && self.studio.prompt.is_some() {
+        // What is typed and not taken yet is taken first, in the next frame.
+        if self.dropped.is_empty() || self.studio.leave_field() {
+            return;
+        }
+        let dropped = std::mem::take(&mut self.dropped);
+        if self.studio.prompt.is_some() {
             self.studio.tell("close the window that is open first");
             return;
         }

@@ -1,7 +1,6 @@
 //! What a motion script does when, for a timeline: read from its text, where it can be.
 
-use crate::edit::Place;
-use effects::preset::edit;
+use effects::preset::edit::{self, Step};
 
 /// Longer than any sequence: a move or wind without an end.
 const FOREVER_S: f32 = 1e5;
@@ -44,12 +43,11 @@ impl MotionTrack {
             ("shapes", "time", "shape"),
             ("body_keys", "time", "body"),
         ] {
-            let place = Place::top().field(list);
-            for index in 0..edit::items(text, &place.steps()).len() {
-                let item = place.item(index);
-                let number = |field: &str| number(text, &item.field(field));
+            let items = edit::items(text, &[Step::Field(list)]);
+            for (index, item) in items.into_iter().enumerate() {
+                let number = |field: &str| number(item, field);
                 let default_length = if list == "moves" { 1.0 } else { FOREVER_S };
-                let said = |field: &str| edit::get(text, &item.field(field).steps());
+                let said = |field: &str| edit::get(item, &[Step::Field(field)]);
                 spans.push(Span {
                     name: match list {
                         "moves" => said("move").unwrap_or("turn").to_owned(),
@@ -68,7 +66,7 @@ impl MotionTrack {
         }
         Self {
             spans,
-            period_s: number(text, &Place::top().field("period")).unwrap_or(0.0),
+            period_s: number(text, "period").unwrap_or(0.0),
         }
     }
 
@@ -93,8 +91,8 @@ impl MotionTrack {
     }
 }
 
-fn number(text: &str, place: &Place) -> Option<f32> {
-    let number = edit::get(text, &place.steps())?.parse().ok();
+fn number(section: &str, field: &str) -> Option<f32> {
+    let number = edit::get(section, &[Step::Field(field)])?.parse().ok();
     number.filter(|number: &f32| number.is_finite() && *number >= 0.0)
 }
 

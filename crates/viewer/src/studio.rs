@@ -125,6 +125,8 @@ pub struct Studio {
     opened: u64,
     /// When time last passed, seconds of the window's clock.
     last_tick: Option<f64>,
+    /// Why no copies are kept, as it was told last.
+    recovery_error: Option<String>,
     /// Files of the looks that nobody else watches: hair, heads, characters.
     files: WatchedFiles,
     /// An action that waits until what is typed has been taken.
@@ -183,6 +185,7 @@ impl Studio {
             is_picture_focused: false,
             opened: 0,
             last_tick: None,
+            recovery_error: None,
             files: WatchedFiles::new(wake.clone()),
             pending: None,
             may_close: false,

@@ -3,6 +3,7 @@
 use notify::event::ModifyKind;
 use notify::{EventKind, RecommendedWatcher, RecursiveMode, Watcher as _};
 use std::collections::BTreeSet;
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -14,6 +15,8 @@ pub struct WatchedFiles {
     watched: BTreeSet<PathBuf>,
     /// What was deleted or renamed since it was last looked at: a folder that is made again is another one.
     gone: Arc<Mutex<Vec<PathBuf>>>,
+    /// Names of the files: others in their folders are no news, such as pictures that we export.
+    names: Arc<Mutex<BTreeSet<OsString>>>,
     watcher: Option<RecommendedWatcher>,
     has_changed: Arc<AtomicBool>,
 }
@@ -26,16 +29,28 @@ impl WatchedFiles {
         let told = has_changed.clone();
         let gone = Arc::<Mutex<Vec<PathBuf>>>::default();
         let lost = gone.clone();
+        let names = Arc::<Mutex<BTreeSet<OsString>>>::default();
+        let ours = names.clone();
         let watcher = notify::recommended_watcher(move |event: notify::Result<notify::Event>| {
+            let Ok(event) = event else { return };
             // That a file was read is no news: we do so ourselves.
-            if let Ok(event) = event
-                && !event.kind.is_access()
-            {
-                if may_lose(event.kind) {
-                    let mut lost = lost.lock().unwrap_or_else(PoisonError::into_inner);
-                    lost.extend(event.paths);
-                }
+            if event.kind.is_access() {
+                return;
+            }
+            let ours = ours.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut names = event.paths.iter().filter_map(|path| path.file_name());
+            // Where the system lost count, it may be any.
+            let is_ours = event.need_rescan() || names.any(|name| ours.contains(name));
+            drop(ours);
+            let may_lose = may_lose(event.kind);
+            if may_lose {
+                let mut lost = lost.lock().unwrap_or_else(PoisonError::into_inner);
+                lost.extend(event.paths);
+            }
+            if is_ours {
                 told.store(true, Ordering::Relaxed);
+            }
+            if is_ours || may_lose {
                 wake();
             }
         });
@@ -43,6 +58,7 @@ impl WatchedFiles {
             folders: BTreeSet::new(),
             watched: BTreeSet::new(),
             gone,
+            names,
             watcher: watcher.ok(),
             has_changed,
         }
@@ -55,18 +71,23 @@ impl WatchedFiles {
             _ => Path::new(".").to_owned(),
         };
         self.folders = files.iter().map(folder).collect();
+        let names = files.iter().filter_map(|file| file.file_name());
+        *self.names.lock().unwrap_or_else(PoisonError::into_inner) =
+            names.map(OsStr::to_owned).collect();
         let others: Vec<PathBuf> = self.watched.difference(&self.folders).cloned().collect();
-        others.iter().for_each(|folder| self.unwatch(folder));
+        for folder in &others {
+            self.unwatch(folder);
+        }
         self.watch_missing();
     }
 
     /// Whether something changed since it was last asked.
     pub fn has_changed(&mut self) -> bool {
         let gone = std::mem::take(&mut *self.gone.lock().unwrap_or_else(PoisonError::into_inner));
-        gone.iter().for_each(|path| self.unwatch(path));
+        let has_lost = gone.iter().filter(|path| self.unwatch(path)).count() > 0;
         // What came with a folder that wasn't there, nobody has told.
         let has_more = self.watch_missing();
-        self.has_changed.swap(false, Ordering::Relaxed) || has_more
+        self.has_changed.swap(false, Ordering::Relaxed) || has_more || has_lost
     }
 
     /// Whether a folder isn't watched yet, so that [`Self::has_changed`] is to be asked in a while without anybody's doing.
@@ -75,13 +96,14 @@ impl WatchedFiles {
         self.watcher.is_some() && self.watched != self.folders
     }
 
-    fn unwatch(&mut self, folder: &Path) {
-        if self.watched.remove(folder)
-            && let Some(watcher) = &mut self.watcher
-        {
+    /// Whether it was watched.
+    fn unwatch(&mut self, folder: &Path) -> bool {
+        let was_watched = self.watched.remove(folder);
+        if was_watched && let Some(watcher) = &mut self.watcher {
             // It may be no more there.
             let _ = watcher.unwatch(folder);
         }
+        was_watched
     }
 
     /// Watches the folders that are not watched yet, as far as they can be. Whether there were such.
@@ -144,6 +166,22 @@ mod tests {
             fs::write(&file, "").unwrap();
             files.has_changed()
         });
+    }
+
+    #[test]
+    fn what_else_lies_beside_is_no_news() {
+        let place = tempfile::tempdir().unwrap();
+        let file = place.path().join("a.tfx");
+        let woken = Arc::new(AtomicBool::new(false));
+        let wakes = woken.clone();
+        let mut files = WatchedFiles::new(Arc::new(move || wakes.store(true, Ordering::Relaxed)));
+        files.watch(std::slice::from_ref(&file));
+        assert!(!files.has_changed());
+        fs::write(place.path().join("frame_0001.png"), "").unwrap();
+        std::thread::sleep(Duration::from_millis(200));
+        assert!(!files.has_changed() && !woken.load(Ordering::Relaxed));
+        fs::write(&file, "").unwrap();
+        wait_until(|| files.has_changed() && woken.load(Ordering::Relaxed));
     }
 
     #[track_caller]

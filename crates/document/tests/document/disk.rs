@@ -100,6 +100,22 @@ fn where_both_changed_both_are_there() {
     document.save().unwrap();
     assert_eq!(place.read(), "mine again");
 
+    // Who takes back what he did hasn't theirs yet.
+    edit(&mut document, "mine again, and more");
+    place.write("theirs again");
+    assert_eq!(wait(&mut document), DiskChange::Conflict);
+    assert!(document.undo());
+    assert_eq!(&**document.text(), "mine again");
+    assert!(document.is_changed() && !document.was_edited());
+    assert!(matches!(document.save(), Err(SaveError::Conflict(_))));
+    document.take_theirs();
+    assert_eq!(
+        (&**document.text(), document.is_changed()),
+        ("theirs again", false)
+    );
+    edit(&mut document, "mine again");
+    document.save().unwrap();
+
     // What they did they may undo, or do as I did.
     for theirs in ["mine again", "mine at last"] {
         edit(&mut document, "mine at last");

@@ -51,7 +51,7 @@ impl Model {
     }
 
     fn is_changed(&self) -> bool {
-        self.conflict == Some(None) || self.base != Some(self.text())
+        self.conflict.is_some() || self.base != Some(self.text())
     }
 
     fn edit(&mut self, text: u8, gesture: Option<u64>) {

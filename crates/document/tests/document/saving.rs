@@ -26,6 +26,16 @@ fn marks_and_line_ends_stay() {
     assert_eq!(place.read(), "\u{feff}(\r\n  a: 2,\r\n)\r\n");
     place.write("(\n)\n");
     assert_eq!(wait(&mut document), DiskChange::Reloaded);
+    // What is taken over in a conflict brings its mark along.
+    edit(&mut document, "(a: 3)\n");
+    place.write("\u{feff}(b: 1)\n");
+    assert_eq!(wait(&mut document), DiskChange::Conflict);
+    document.take_theirs();
+    edit(&mut document, "(b: 2)\n");
+    document.save().unwrap();
+    assert_eq!(place.read(), "\u{feff}(b: 2)\n");
+    place.write("(\n)\n");
+    assert_eq!(wait(&mut document), DiskChange::Reloaded);
     edit(&mut document, "(a: 1)\n");
     document.save().unwrap();
     assert_eq!(place.read(), "(a: 1)\n");

@@ -32,29 +32,42 @@ pub enum Thumbnail {
 /// Size and time of a file: where they are others, so is the picture.
 type Stamp = Option<(u64, SystemTime)>;
 
+/// A small picture, and of what.
+struct Kept {
+    /// The preset, and the files that its look was read from.
+    stamps: Vec<(PathBuf, Stamp)>,
+    thumbnail: Thumbnail,
+}
+
 /// Small pictures, and the thread that draws them.
 pub struct Thumbnails {
-    wanted: Sender<(PathBuf, Stamp)>,
-    drawn: Arc<Mutex<BTreeMap<PathBuf, (Stamp, Thumbnail)>>>,
+    wanted: Sender<PathBuf>,
+    drawn: Arc<Mutex<BTreeMap<PathBuf, Kept>>>,
 }
 
 impl Thumbnails {
     /// Starts the thread. `wake` is called from it whenever there is another picture.
     #[must_use]
     pub fn start(registry: Arc<Registry>, wake: impl Fn() + Send + 'static) -> Self {
-        let (wanted, received): (_, Receiver<(PathBuf, Stamp)>) = channel();
-        let drawn = Arc::new(Mutex::new(BTreeMap::new()));
+        let (wanted, received): (_, Receiver<PathBuf>) = channel();
+        let drawn = Arc::<Mutex<BTreeMap<PathBuf, Kept>>>::default();
         let shared = drawn.clone();
         std::thread::spawn(move || {
             let mut painter = Painter::new();
-            while let Ok((path, stamp)) = received.recv() {
-                let drawn = catch_unwind(AssertUnwindSafe(|| draw(&path, &registry, &mut painter)));
+            while let Ok(path) = received.recv() {
+                let mut slot = Slot::new(&registry);
+                let before = stamp(&path);
+                let drawn = catch_unwind(AssertUnwindSafe(|| draw(&path, &mut slot, &mut painter)));
                 let thumbnail = drawn.unwrap_or_else(|_| {
                     painter = Painter::new();
                     Thumbnail::Failed("drawing it failed by a bug".to_owned())
                 });
+                let others = slot.files().filter(|file| *file != path);
+                let others = others.map(|file| (stamp(&file), file));
+                let mut stamps = vec![(path.clone(), before)];
+                stamps.extend(others.map(|(stamp, file)| (file, stamp)));
                 let mut drawn = shared.lock().unwrap_or_else(PoisonError::into_inner);
-                drawn.insert(path, (stamp, thumbnail));
+                drawn.insert(path, Kept { stamps, thumbnail });
                 drop(drawn);
                 wake();
             }
@@ -62,24 +75,34 @@ impl Thumbnails {
         Self { wanted, drawn }
     }
 
-    /// The thumbnail of a preset, which is drawn from now on where it is not yet, or has changed since.
+    /// The thumbnail of a preset, which is drawn from now on where it is not yet, or the preset or a file that it names has changed since.
     pub fn of(&self, path: &Path) -> Thumbnail {
-        let about = fs::metadata(path).ok();
-        let stamp = about.and_then(|about| Some((about.len(), about.modified().ok()?)));
         let mut drawn = self.drawn.lock().unwrap_or_else(PoisonError::into_inner);
-        match drawn.get_mut(path) {
-            Some((of, thumbnail)) if *of == stamp => return thumbnail.clone(),
-            // The old picture is shown until there is the new one.
-            Some((of, _)) => *of = stamp,
-            None => _ = drawn.insert(path.to_owned(), (stamp, Thumbnail::Waiting)),
+        let kept = drawn.entry(path.to_owned()).or_insert_with(|| Kept {
+            // Not drawn yet: of another file than there is.
+            stamps: vec![(path.to_owned(), Some((0, SystemTime::UNIX_EPOCH)))],
+            thumbnail: Thumbnail::Waiting,
+        });
+        let mut is_other = false;
+        for (file, of) in &mut kept.stamps {
+            let now = stamp(file);
+            is_other |= *of != now;
+            *of = now;
         }
-        // The thread ends with the window alone.
-        let _ = self.wanted.send((path.to_owned(), stamp));
-        drawn[path].1.clone()
+        if is_other {
+            // The old picture is shown until there is the new one. The thread ends with the window alone.
+            let _ = self.wanted.send(path.to_owned());
+        }
+        kept.thumbnail.clone()
     }
 }
 
-fn draw(path: &Path, registry: &Registry, painter: &mut Painter) -> Thumbnail {
+fn stamp(path: &Path) -> Stamp {
+    let about = fs::metadata(path).ok()?;
+    Some((about.len(), about.modified().ok()?))
+}
+
+fn draw(path: &Path, slot: &mut Slot, painter: &mut Painter) -> Thumbnail {
     let text = match hair_io::read_text(path, hair_io::MOST_OF_TEXT) {
         Ok(text) => text,
         Err(error) => return Thumbnail::Failed(error.to_string()),
@@ -90,7 +113,6 @@ fn draw(path: &Path, registry: &Registry, painter: &mut Painter) -> Thumbnail {
         text: text.into(),
         ..Look::default()
     };
-    let mut slot = Slot::new(registry);
     if let Some(problem) = slot.follow(&look).first() {
         return Thumbnail::Failed(problem.to_string());
     }

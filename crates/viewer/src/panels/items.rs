@@ -132,7 +132,9 @@ impl List<'_> {
     fn dropped(&self, ui: &Ui, list: Id, index: usize, rect: eframe::egui::Rect) -> Option<Change> {
         let dragged = DragAndDrop::payload::<Dragged>(ui.ctx())?;
         let pointer = ui.input(|input| input.pointer.latest_pos())?;
-        if dragged.list != list || !ui.rect_contains_pointer(rect) {
+        // The list may have become shorter since it was taken.
+        let is_there = dragged.list == list && dragged.index < self.titles.len();
+        if !is_there || !ui.rect_contains_pointer(rect) {
             return None;
         }
         let is_below = pointer.y > rect.center().y;

@@ -287,7 +287,9 @@ impl<'a> Found<'a> {
             true => search,
             false => &all,
         };
-        let renamed = match search.matches(&["name", "rename", &self.name]) {
+        // Without an effect of its own it is the base's layer of that name: by another it would be none.
+        let has_effect = edit::get(self.item, &[Step::Field("effect")]).is_some();
+        let renamed = match has_effect && search.matches(&["name", "rename", &self.name]) {
             true => self.name_row(ui, names, edits),
             false => None,
         };
@@ -379,18 +381,43 @@ impl<'a> Found<'a> {
         })
     }
 
-    /// The layer's text under a new name.
+    /// The layer's text under a new name. What a layer of the base has by its name is written in it.
     fn copy(&self, names: &BTreeSet<String>) -> String {
         let name = new_name(&self.name, |name| is_taken(name, names));
-        let copy = edit::set(self.item, &[Step::Field("name")], &quoted(&name));
-        copy.unwrap_or_else(|_| self.item.to_owned())
+        let mut copy = with(self.item, &[Step::Field("name")], &quoted(&name));
+        let Some(below) = self.below else {
+            return copy;
+        };
+        let mut add = |path: &[Step], value: &str| {
+            if edit::get(&copy, path).is_none() {
+                copy = with(&copy, path, value);
+            }
+        };
+        add(&[Step::Field("effect")], &quoted(below.effect));
+        for (name, value) in &below.own {
+            if self.own.iter().any(|param| param.name == *name) {
+                add(&[Step::Field(name)], value);
+            }
+        }
+        for (section, texts) in [("brush", &below.brush), ("params", &below.params)] {
+            let says = self.effect.is_some_and(|effect| may_say(effect, section));
+            for (name, value) in texts.iter().filter(|_| says) {
+                add(&[Step::Field(section), Step::Field(name)], value);
+            }
+        }
+        copy
     }
+}
+
+/// A layer's text with another value at a place; as it was where it can't have that.
+fn with(item: &str, path: &[Step], value: &str) -> String {
+    edit::set(item, path, value).unwrap_or_else(|_| item.to_owned())
 }
 
 /// Whether a new layer can't have a name: it is another layer's, or a section's.
 fn is_taken(name: &str, names: &BTreeSet<String>) -> bool {
     names.contains(name)
-        || ["layers", "meshes", "lines", "passes", "objects"].contains(&name)
+        || ["layers", "meshes", "lines", "bodies", "passes", "objects"].contains(&name)
         || Preset::TOP.iter().any(|param| param.name == name)
         || Sections::ALL.iter().any(|(section, ..)| *section == name)
 }
@@ -402,6 +429,7 @@ fn own_fields(effect: &dyn AnyEffect) -> Vec<Param> {
         match (&mut param.kind, param.name) {
             (ParamKind::Integer { default, .. }, "rank") => *default = effect.rank(),
             (ParamKind::Number { default, .. }, "depth_offset") => *default = effect.depth_offset(),
+            (ParamKind::Number { default, .. }, "reach") => *default = effect.clip_reach(),
             _ => {}
         }
         param

@@ -11,6 +11,7 @@ use effects::preset::read_value;
 use effects::{Param, ParamKind, Value};
 use eframe::egui::Ui;
 use stage::FilePart;
+use std::cell::OnceCell;
 
 /// A list of parts as a pane shows it.
 pub(super) struct Parts<'a> {
@@ -63,18 +64,22 @@ impl Parts<'_> {
         let owners: Vec<String> = (self.titles.iter())
             .map(|title| format!("{} {title}", self.noun))
             .collect();
-        let tables: Vec<Vec<Param>> = (0..items.len()).map(&table).collect();
+        // Of items that are shown, or searched.
+        let tables: Vec<OnceCell<Vec<Param>>> = vec![OnceCell::new(); items.len()];
         let names: Vec<&str> = self.fields.iter().map(|field| field.name).collect();
         let form = |index: usize| {
             let place = place.item(index);
-            Form::new(&owners[index], &tables[index], Some(items[index]), place)
+            let table = tables[index].get_or_init(|| table(index));
+            Form::new(&owners[index], table, Some(items[index]), place)
                 .about(self.part.doc)
                 .without(&names)
                 .needed(self.needed)
                 .refusing(move |field, text| (self.refusal)(index, field, text))
         };
         let finds = |index: usize| {
-            form(index).matches(search) || places::matches(self.fields, &owners[index], search)
+            !search.is_active()
+                || form(index).matches(search)
+                || places::matches(self.fields, &owners[index], search)
         };
         let list = List {
             noun: self.noun,

@@ -34,8 +34,11 @@ pub fn style(ui: &mut Ui, text: &str, search: &str, edits: &mut Vec<Edit>) {
         return;
     };
     top_fields(ui, text, top, &search, edits);
-    zone_list(ui, text, zones, &search, edits);
+    // Changes of clumps that go with their zone go last: what is typed into others in this frame is for their numbers of now.
+    let mut gone = Vec::new();
+    zone_list(ui, text, zones, &search, edits, &mut gone);
     edit_list(ui, text, [zones, clumps], &search, edits);
+    edits.extend(gone);
     strand_list(ui, text, strands, &search, edits);
     accessory_list(ui, text, accessories, &search, edits);
 }
@@ -84,7 +87,14 @@ fn top_fields(ui: &mut Ui, text: &str, part: &FilePart, search: &Search, edits: 
     });
 }
 
-fn zone_list(ui: &mut Ui, text: &str, part: &FilePart, search: &Search, edits: &mut Vec<Edit>) {
+fn zone_list(
+    ui: &mut Ui,
+    text: &str,
+    part: &FilePart,
+    search: &Search,
+    edits: &mut Vec<Edit>,
+    gone: &mut Vec<Edit>,
+) {
     let items = items_of(text, part.name);
     let names: Vec<String> = items.iter().map(|item| name_of(item)).collect();
     let is_taken = |index: usize, field: &str, text: &str| {
@@ -138,7 +148,7 @@ fn zone_list(ui: &mut Ui, text: &str, part: &FilePart, search: &Search, edits: &
             // What changes its clumps goes with it, the last first: others keep their numbers.
             for (number, clump) in items_of(text, "edits").iter().enumerate().rev() {
                 if text_of(clump, "zone").as_ref() == Some(&names[index]) {
-                    edits.push(Edit::Remove(Place::top().field("edits").item(number)));
+                    gone.push(Edit::Remove(Place::top().field("edits").item(number)));
                 }
             }
             edits.push(Edit::Remove(place.item(index)));

@@ -100,12 +100,11 @@ impl Studio {
         let Some(documents) = &mut self.documents else {
             return;
         };
-        let errors = documents.save();
-        let sentence = match errors.first() {
-            Some(error) => error.to_string(),
-            None => "saved".to_owned(),
-        };
-        self.tell(sentence);
+        let errors: Vec<String> = (documents.save().iter()).map(ToString::to_string).collect();
+        self.tell(match errors.is_empty() {
+            true => "saved".to_owned(),
+            false => errors.join("\n"),
+        });
     }
 
     /// Shows a picture to draw after.
@@ -160,7 +159,11 @@ impl Studio {
 /// A path as a preset in `folder` names it: relative where both are in one tree, with `/` on every system.
 fn relative_to(path: &Path, folder: &Path) -> String {
     let whole = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-    let (path, folder) = (whole(path), whole(folder));
+    // Without `..`, which leads elsewhere where a folder is a link: both as the system has them, where it has both.
+    let (path, folder) = match (path.canonicalize(), folder.canonicalize()) {
+        (Ok(path), Ok(folder)) => (path, folder),
+        _ => (whole(path), whole(folder)),
+    };
     let common = path
         .components()
         .zip(folder.components())
@@ -185,5 +188,19 @@ mod tests {
         assert_eq!(named("/a/looks/bob.style.ron"), "bob.style.ron");
         assert_eq!(named("/a/hair/x.tfx"), "../hair/x.tfx");
         assert_eq!(named("/b/x.tfx"), "/b/x.tfx");
+    }
+
+    #[test]
+    fn a_folder_may_be_named_by_a_way_that_goes_up() {
+        let root = tempfile::tempdir().unwrap();
+        for folder in ["looks", "hair"] {
+            std::fs::create_dir(root.path().join(folder)).unwrap();
+            std::fs::write(root.path().join(folder).join("x.tfx"), "").unwrap();
+        }
+        let folder = root.path().join("looks/../hair");
+        let named = |path: &str| relative_to(&root.path().join(path), &folder);
+        assert_eq!(named("hair/x.tfx"), "x.tfx");
+        assert_eq!(named("looks/x.tfx"), "../looks/x.tfx");
+        assert_eq!(named("hair/../looks/x.tfx"), "../looks/x.tfx");
     }
 }

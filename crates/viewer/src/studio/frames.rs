@@ -43,7 +43,11 @@ impl Studio {
             if let Some(documents) = &mut self.documents {
                 documents.keep_recovery_copies();
                 documents.look_again();
-                if let Some(error) = documents.recovery_error().map(str::to_owned) {
+                let error = documents.recovery_error().map(str::to_owned);
+                // Once: it would hide all else that is told.
+                let is_news = error != self.recovery_error;
+                self.recovery_error.clone_from(&error);
+                if let Some(error) = error.filter(|_| is_news) {
                     self.tell(format!(
                         "no copy is kept that would outlive a crash: {error}"
                     ));

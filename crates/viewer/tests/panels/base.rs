@@ -80,6 +80,31 @@ fn layers_of_the_base_are_changed_by_their_names() {
     );
 }
 
+/// What has its effect by its name alone keeps it, and says all that it has under another one.
+#[test]
+fn layers_of_the_base_keep_their_names_and_are_copied_whole() {
+    let look =
+        r#"(version: 1, base: "twin-tails.ron", layers: [(name: "contour", params: (width: 4))])"#;
+    let mut harness = Pane::new(Kind::Layers, look).harness(300.0);
+    open_all(&mut harness);
+    let all = names(&harness);
+    assert!(!all.contains(&"contour name".to_owned()), "{all:#?}");
+    click(&mut harness, "duplicate layer contour");
+    let Pane { text, refused, .. } = harness.state();
+    assert_eq!(*refused, Vec::<String>::new());
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../presets");
+    let registry = inkstrand::builtin_effects();
+    let read = stage::Preset::parse_in(&folder, "look.ron", text, &registry).unwrap();
+    let layer = |name: &str| read.layers.iter().find(|layer| layer.name == name).unwrap();
+    let (own, copy) = (layer("contour"), layer("contour-2"));
+    assert_eq!((own.rank, own.units), (copy.rank, copy.units));
+    assert_eq!(own.depth_offset, copy.depth_offset);
+    for index in 0..effects::AnyEffect::params(own.effect).len() {
+        use effects::section::Section;
+        assert_eq!(own.values.get(index), copy.values.get(index), "{text}");
+    }
+}
+
 #[test]
 fn layers_of_meshes_of_the_base_show_what_they_are_on() {
     let look = r#"(version: 1, base: "long-fringe.ron", layers: [(name: "eyes")])"#;

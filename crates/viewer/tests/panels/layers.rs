@@ -98,6 +98,39 @@ fn layers_are_dragged_to_another_place() {
     assert_eq!(layers(&harness), ["dark", "hair.silhouette", "hair.base"]);
 }
 
+/// Undone while it is dragged, a layer that was there is dropped as nothing.
+#[test]
+fn a_layer_that_is_gone_may_be_dropped() {
+    let mut harness = Pane::new(Kind::Layers, LOOK).harness(300.0);
+    let from = node(&harness, "dark").rect().center();
+    let to = node(&harness, "hair.silhouette").rect().center_top();
+    let button = |harness: &Harness<Pane>, pos: Pos2, pressed| {
+        harness.event(Event::PointerButton {
+            pos,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        });
+    };
+    harness.event(Event::PointerMoved(from));
+    button(&harness, from, true);
+    harness.run();
+    harness.event(Event::PointerMoved(from.lerp(to, 0.5)));
+    harness.run();
+    let without = LOOK.replace(
+        "(effect: \"hair.fine\", name: \"dark\"), // loose hairs",
+        "",
+    );
+    harness.state_mut().text = without.clone();
+    for step in 3..=4 {
+        harness.event(Event::PointerMoved(from.lerp(to, step as f32 / 4.0)));
+        harness.run();
+    }
+    button(&harness, to, false);
+    harness.run();
+    assert_eq!(harness.state().text, without);
+}
+
 #[test]
 fn layers_are_added_under_names_of_their_own() {
     let mut harness = shown(LOOK);

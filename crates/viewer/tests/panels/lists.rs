@@ -121,6 +121,23 @@ fn edits_follow_the_name_of_their_zone_and_have_its_clumps() {
     says(&harness, ", (zone: \"bangs\", clump: 0)]");
 }
 
+/// What is typed into a change of a clump is taken where it was typed, also in the frame in which changes before it go.
+#[test]
+fn what_is_typed_as_a_zone_goes_stays_where_it_is() {
+    let mut harness = shown(Kind::Style, STYLE);
+    let size = "edit 2: tail 0 size";
+    node(&harness, size).focus();
+    harness.run();
+    harness.key_press_modifiers(eframe::egui::Modifiers::COMMAND, eframe::egui::Key::A);
+    node(&harness, size).type_text("3");
+    harness.run();
+    harness.key_press(eframe::egui::Key::Enter);
+    node(&harness, "remove zone fringe").click_accesskit();
+    harness.run();
+    says(&harness, "edits: [(zone: \"tail\", clump: 0, size: 3)]");
+    assert_eq!(harness.state().refused, Vec::<String>::new());
+}
+
 #[test]
 fn names_of_zones_are_unique_and_those_of_edits_are_there() {
     let mut harness = shown(Kind::Style, STYLE);

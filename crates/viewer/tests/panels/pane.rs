@@ -29,6 +29,8 @@ pub struct Pane {
     pub edits: Vec<Edit>,
     /// Edits that the text didn't allow.
     pub refused: Vec<String>,
+    /// What the base says, and of which text: it isn't read in each frame.
+    pub inherited: (String, Inherited),
 }
 
 impl Pane {
@@ -41,6 +43,7 @@ impl Pane {
             shown: LayersShown::default(),
             edits: Vec::new(),
             refused: Vec::new(),
+            inherited: Default::default(),
         }
     }
 
@@ -55,17 +58,19 @@ impl Pane {
     pub fn frame(ui: &mut eframe::egui::Ui, pane: &mut Self) {
         let mut edits = Vec::new();
         let (text, search) = (pane.text.clone(), pane.search.clone());
+        if matches!(pane.kind, Kind::Layers | Kind::Look) && pane.inherited.0 != text {
+            pane.inherited = (text.clone(), inherited(&text, &pane.registry));
+        }
         match pane.kind {
             Kind::Layers => {
                 let Self {
                     registry, shown, ..
                 } = pane;
-                let inherited = inherited(&text, registry);
-                panels::layers(ui, &text, &inherited, registry, shown, &search, &mut edits);
+                let inherited = &pane.inherited.1;
+                panels::layers(ui, &text, inherited, registry, shown, &search, &mut edits);
             }
             Kind::Look => {
-                let inherited = inherited(&text, &pane.registry);
-                panels::look(ui, &text, &inherited, &search, &mut edits);
+                panels::look(ui, &text, &pane.inherited.1, &search, &mut edits);
             }
             Kind::Style => panels::style(ui, &text, &search, &mut edits),
             Kind::Motion => panels::motion_script(ui, &text, &search, &mut edits),
