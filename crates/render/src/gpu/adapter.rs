@@ -50,6 +50,7 @@ impl Gpu {
     pub fn open(kind: AdapterKind) -> Result<Self, GpuError> {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
             backends: wgpu::Backends::PRIMARY,
+            flags: flags(),
             ..wgpu::InstanceDescriptor::new_without_display_handle()
         });
         let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::PRIMARY));
@@ -121,6 +122,12 @@ impl Gpu {
     pub fn check(&self) -> Result<(), GpuError> {
         self.faults.first().take().map_or(Ok(()), Err)
     }
+}
+
+/// wgpu's own, but without names and lines in shaders unless `WGPU_DEBUG=1` asks for them: in a developer's build, to find the line of each
+/// expression takes longer than all else that is done with a shader.
+fn flags() -> wgpu::InstanceFlags {
+    (wgpu::InstanceFlags::from_build_config() - wgpu::InstanceFlags::DEBUG).with_env()
 }
 
 fn preference(kind: wgpu::DeviceType) -> u32 {
