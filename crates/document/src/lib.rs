@@ -201,6 +201,11 @@ impl Document {
         !self.base.as_ref().is_some_and(is_same)
     }
 
+    /// Whether it has what a file has not: then it wants a copy.
+    fn has_own(&self) -> bool {
+        self.conflict == Some(Conflict::Deleted) || self.was_edited()
+    }
+
     /// Changes the text. Edits one after the other with the same `gesture`, such as those of a drag, are one step of undo.
     /// The text that is there already is no edit.
     pub fn edit(&mut self, text: String, gesture: Option<u64>) -> Step {
@@ -414,7 +419,7 @@ impl Document {
     /// Keeps a recovery copy of unsaved changes, where the text is another one than that of the last call, and removes it
     /// where there are none. To be called at most about once a second, while [`Self::wants_recovery_copy`] says so.
     pub fn keep_recovery_copy(&mut self) {
-        if !self.is_changed() {
+        if !self.has_own() {
             self.copy = None;
             self.copied = None;
             self.copy_error = None;
@@ -435,7 +440,7 @@ impl Document {
     /// Whether [`Self::keep_recovery_copy`] has something to do. A copy that could not be written is wanted again after the next edit.
     #[must_use]
     pub fn wants_recovery_copy(&self) -> bool {
-        match self.is_changed() {
+        match self.has_own() {
             true => self.recovery.folder().is_some() && self.copied != Some(self.version),
             false => self.copy.is_some(),
         }
@@ -500,7 +505,7 @@ impl Document {
 
 impl Drop for Document {
     fn drop(&mut self) {
-        if let Some(copy) = self.copy.take().filter(|_| self.is_changed()) {
+        if let Some(copy) = self.copy.take().filter(|_| self.has_own()) {
             copy.leave();
         }
     }

@@ -76,6 +76,12 @@ impl WholeFile {
         })
     }
 
+    /// Whether a file of this name is one that isn't whole yet, or that a killed process has left.
+    #[must_use]
+    pub fn is_part(name: &str) -> bool {
+        name.starts_with(PART.0) && name.ends_with(PART.1)
+    }
+
     /// Waits until what was written is on the disk, so that even a loss of power leaves the old file or the new one.
     ///
     /// # Errors
@@ -165,8 +171,7 @@ impl Parts {
         // What cannot be cleaned up stays, and hinders nobody.
         for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
             let name = entry.file_name();
-            let name = name.to_string_lossy();
-            let is_part = name.starts_with(PART.0) && name.ends_with(PART.1);
+            let is_part = WholeFile::is_part(&name.to_string_lossy());
             if !is_part || !entry.file_type().is_ok_and(|kind| kind.is_file()) {
                 continue;
             }

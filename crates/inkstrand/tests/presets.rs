@@ -114,6 +114,8 @@ struct Place {
     value: Range<usize>,
     /// `None` for sections, lists and `params`.
     kind: Option<ParamKind>,
+    /// Where the table lies that has it: one section's or effect's.
+    table: *const Param,
 }
 
 /// All fields of a good preset, at any depth.
@@ -130,6 +132,7 @@ fn places(text: &str, registry: &Registry) -> Vec<Place> {
             name: range(name),
             value: range(value),
             kind: param.map(|param| param.kind),
+            table: table.as_ptr(),
         });
     };
     for field in reader.fields(reader.text(), "the preset") {
@@ -199,14 +202,14 @@ fn places(text: &str, registry: &Registry) -> Vec<Place> {
     places
 }
 
-/// Fields that have been met: each is spoilt in the first preset that has it, as there are many, and some have nothing that others lack.
+/// Fields of sections and effects that have been met: each is spoilt in the first preset that has it, as there are many, and some have nothing that others lack.
 #[derive(Default)]
-struct Firsts(HashSet<String>);
+struct Firsts(HashSet<(String, *const Param)>);
 
 impl Firsts {
     fn is_first(&mut self, text: &str, place: &Place) -> bool {
         let name = &text[place.name.clone()];
-        self.0.insert(format!("{name}: {:?}", place.kind))
+        self.0.insert((name.to_owned(), place.table))
     }
 }
 

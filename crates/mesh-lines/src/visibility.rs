@@ -64,7 +64,8 @@ pub enum Cut {
 ///
 /// `lines` are all that there are, since they hide each other: contours of this view, borders, and creases where the mesh has sharp edges. `bvh` is that of `surface`. Pieces that are
 /// shorter than `shortest` in the image ([`View`]; a pixel, or 0) become as the longer one of their neighbours. Everything counts that lies between a line and
-/// the eye, also near to it; of what is to hide each other, make one mesh.
+/// the eye, also near to it, but for what is nearer than a millionth of the mesh's farthest coordinate: a floor of 100 km has 0.1 m of it. Of what is to hide each
+/// other, make one mesh.
 ///
 /// The cost is near to `n log n` in the lines' segments and crossings, two rays for each piece, up to 28 where they disagree, and two for each border between what is seen and what isn't,
 /// some 20 where it is moved. A contour's ray has a second, short one before it.

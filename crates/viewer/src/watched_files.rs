@@ -1,9 +1,9 @@
 //! Files that a look is read from, such as hair and heads: whether one of them changed on the disk.
 
+use hair_io::WholeFile;
 use notify::event::ModifyKind;
 use notify::{EventKind, RecommendedWatcher, RecursiveMode, Watcher as _};
 use std::collections::BTreeSet;
-use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -15,8 +15,8 @@ pub struct WatchedFiles {
     watched: BTreeSet<PathBuf>,
     /// What was deleted or renamed since it was last looked at: a folder that is made again is another one.
     gone: Arc<Mutex<Vec<PathBuf>>>,
-    /// Names of the files: others in their folders are no news, such as pictures that we export.
-    names: Arc<Mutex<BTreeSet<OsString>>>,
+    /// Names of the files, in small letters: of pictures in their folders no others are news, such as those that we export.
+    names: Arc<Mutex<BTreeSet<String>>>,
     watcher: Option<RecommendedWatcher>,
     has_changed: Arc<AtomicBool>,
 }
@@ -29,7 +29,7 @@ impl WatchedFiles {
         let told = has_changed.clone();
         let gone = Arc::<Mutex<Vec<PathBuf>>>::default();
         let lost = gone.clone();
-        let names = Arc::<Mutex<BTreeSet<OsString>>>::default();
+        let names = Arc::<Mutex<BTreeSet<String>>>::default();
         let ours = names.clone();
         let watcher = notify::recommended_watcher(move |event: notify::Result<notify::Event>| {
             let Ok(event) = event else { return };
@@ -38,9 +38,10 @@ impl WatchedFiles {
                 return;
             }
             let ours = ours.lock().unwrap_or_else(PoisonError::into_inner);
-            let mut names = event.paths.iter().filter_map(|path| path.file_name());
+            let mut names = event.paths.iter().filter_map(|path| name_of(path));
             // Where the system lost count, it may be any.
-            let is_ours = event.need_rescan() || names.any(|name| ours.contains(name));
+            let is_ours =
+                event.need_rescan() || names.any(|name| ours.contains(&name) || !is_output(&name));
             drop(ours);
             let may_lose = may_lose(event.kind);
             if may_lose {
@@ -71,9 +72,12 @@ impl WatchedFiles {
             _ => Path::new(".").to_owned(),
         };
         self.folders = files.iter().map(folder).collect();
-        let names = files.iter().filter_map(|file| file.file_name());
-        *self.names.lock().unwrap_or_else(PoisonError::into_inner) =
-            names.map(OsStr::to_owned).collect();
+        // Also what links lead to.
+        let real: Vec<PathBuf> = (files.iter())
+            .filter_map(|file| file.canonicalize().ok())
+            .collect();
+        let names = files.iter().chain(&real).filter_map(|file| name_of(file));
+        *self.names.lock().unwrap_or_else(PoisonError::into_inner) = names.collect();
         let others: Vec<PathBuf> = self.watched.difference(&self.folders).cloned().collect();
         for folder in &others {
             self.unwatch(folder);
@@ -121,6 +125,20 @@ impl WatchedFiles {
         }
         self.watched.len() > before
     }
+}
+
+/// A file's name, in small letters: some systems don't tell them from large ones.
+fn name_of(file: &Path) -> Option<String> {
+    let name = file.file_name()?;
+    Some(name.to_string_lossy().to_lowercase())
+}
+
+/// Whether a file of this name is a picture, or a part of a file that isn't whole yet.
+fn is_output(name: &str) -> bool {
+    [".png", ".apng"]
+        .iter()
+        .any(|ending| name.ends_with(ending))
+        || WholeFile::is_part(name)
 }
 
 /// Whether what an event tells of may be there no more.
@@ -180,7 +198,7 @@ mod tests {
         fs::write(place.path().join("frame_0001.png"), "").unwrap();
         std::thread::sleep(Duration::from_millis(200));
         assert!(!files.has_changed() && !woken.load(Ordering::Relaxed));
-        fs::write(&file, "").unwrap();
+        fs::write(place.path().join("b.tfx"), "").unwrap();
         wait_until(|| files.has_changed() && woken.load(Ordering::Relaxed));
     }
 

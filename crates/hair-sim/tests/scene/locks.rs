@@ -26,6 +26,12 @@ fn row(strands: &mut Strands, count: usize, root: DVec3, along: DVec3, direction
     }
 }
 
+/// What two links are at least apart.
+fn least_apart([one, other]: [&[DVec3]; 2]) -> f64 {
+    let apart = (one[0] + one[1]).distance(other[0] + other[1]);
+    0.5 * (apart - one[0].distance(one[1]) - other[0].distance(other[1]))
+}
+
 /// How far two strands are apart, nearest.
 fn apart_of(solver: &Solver, state: &State, one: usize, other: usize) -> f64 {
     let points = |strand| -> Vec<DVec3> { solver.points(state, strand).collect() };
@@ -33,6 +39,9 @@ fn apart_of(solver: &Solver, state: &State, one: usize, other: usize) -> f64 {
     let mut least = f64::INFINITY;
     for link in one.windows(2) {
         for facing in other.windows(2) {
+            if least_apart([link, facing]) > least {
+                continue;
+            }
             for i in 0..=20 {
                 let at = link[0].lerp(link[1], f64::from(i) / 20.0);
                 let way = facing[1] - facing[0];
@@ -62,6 +71,14 @@ fn crossings(before: &[Vec<DVec3>], after: &[Vec<DVec3>], pairs: &[(usize, usize
 
 /// Whether two links that move evenly meet on the way.
 fn crosses(before: [&[DVec3]; 2], after: [&[DVec3]; 2]) -> bool {
+    let ways = (before.iter().zip(after)).map(|(before, after)| {
+        let ends = before.iter().zip(after);
+        let ways = ends.map(|(before, after)| before.distance(*after));
+        ways.fold(0.0, f64::max)
+    });
+    if least_apart(before) > ways.sum() {
+        return false;
+    }
     let steps = 16;
     let volume = |t: f64| {
         let at = |which: usize, end: usize| before[which][end].lerp(after[which][end], t);

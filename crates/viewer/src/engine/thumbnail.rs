@@ -11,12 +11,15 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::SystemTime;
+use std::time::{Duration, Instant, SystemTime};
 
 /// Width and height of thumbnails, pixels.
 pub const SIZE_PX: [u32; 2] = [160, 120];
 /// Samples a pixel.
 const SAMPLES: u32 = 4;
+
+/// How often the files of a picture that is shown are looked at.
+const LOOK: Duration = Duration::from_secs(1);
 
 /// A small picture of a preset.
 #[derive(Clone, Debug)]
@@ -36,6 +39,8 @@ type Stamp = Option<(u64, SystemTime)>;
 struct Kept {
     /// The preset, and the files that its look was read from.
     stamps: Vec<(PathBuf, Stamp)>,
+    /// When these were looked at last, if ever.
+    looked: Option<Instant>,
     thumbnail: Thumbnail,
 }
 
@@ -67,7 +72,23 @@ impl Thumbnails {
                 let mut stamps = vec![(path.clone(), before)];
                 stamps.extend(others.map(|(stamp, file)| (file, stamp)));
                 let mut drawn = shared.lock().unwrap_or_else(PoisonError::into_inner);
-                drawn.insert(path, Kept { stamps, thumbnail });
+                // What has mistakes may not say all that it is read from: what it was read from counts still.
+                let before = drawn.remove(&path);
+                let failed = before.filter(|_| matches!(thumbnail, Thumbnail::Failed(_)));
+                for file in failed.into_iter().flat_map(|before| before.stamps) {
+                    if stamps.iter().all(|(known, _)| *known != file.0) {
+                        stamps.push(file);
+                    }
+                }
+                let looked = Some(Instant::now());
+                drawn.insert(
+                    path,
+                    Kept {
+                        stamps,
+                        looked,
+                        thumbnail,
+                    },
+                );
                 drop(drawn);
                 wake();
             }
@@ -81,8 +102,13 @@ impl Thumbnails {
         let kept = drawn.entry(path.to_owned()).or_insert_with(|| Kept {
             // Not drawn yet: of another file than there is.
             stamps: vec![(path.to_owned(), Some((0, SystemTime::UNIX_EPOCH)))],
+            looked: None,
             thumbnail: Thumbnail::Waiting,
         });
+        if kept.looked.is_some_and(|looked| looked.elapsed() < LOOK) {
+            return kept.thumbnail.clone();
+        }
+        kept.looked = Some(Instant::now());
         let mut is_other = false;
         for (file, of) in &mut kept.stamps {
             let now = stamp(file);

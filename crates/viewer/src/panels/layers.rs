@@ -381,11 +381,12 @@ impl<'a> Found<'a> {
         })
     }
 
-    /// The layer's text under a new name. What a layer of the base has by its name is written in it.
+    /// The layer's text under a new name. What one that changes a layer of the base has by its name is written in it.
     fn copy(&self, names: &BTreeSet<String>) -> String {
         let name = new_name(&self.name, |name| is_taken(name, names));
         let mut copy = with(self.item, &[Step::Field("name")], &quoted(&name));
-        let Some(below) = self.below else {
+        let has_effect = edit::get(self.item, &[Step::Field("effect")]).is_some();
+        let Some(below) = self.below.filter(|_| !has_effect) else {
             return copy;
         };
         let mut add = |path: &[Step], value: &str| {

@@ -8,6 +8,7 @@ use super::places::{self, PlaceField, Written};
 use crate::controls::{Form, Search};
 use crate::edit::{Edit, Place};
 use effects::Param;
+use effects::preset::edit::{Step, get};
 use effects::preset::suggestion;
 use eframe::egui::Ui;
 use stage::{FilePart, STYLE_PARTS};
@@ -62,7 +63,7 @@ fn top_fields(ui: &mut Ui, text: &str, part: &FilePart, search: &Search, edits: 
     let fields = places_of(part);
     let lists = STYLE_PARTS.iter().map(|part| part.name);
     let others: Vec<&str> = lists.chain(fields.iter().map(|field| field.name)).collect();
-    let section = effects::preset::edit::get(text, &[]);
+    let section = get(text, &[]);
     let form = Form::new(part.name, part.table, section, Place::top())
         .about(part.doc)
         .without(&others)
@@ -217,7 +218,12 @@ fn edit_list(
             .find(|item| text_of(item, "name") == zone);
         let most = zone.map_or(0.0, |zone| {
             let number = |name: &str| number_of(zone, zones.table, name);
-            number("count") * number("rows") - 1.0
+            let form = get(zone, &[Step::Field("form")]);
+            let rows = match form.is_none_or(|form| form == "rows") {
+                true => number("rows"),
+                false => 1.0,
+            };
+            number("count") * rows - 1.0
         });
         let mut table = part.table.to_vec();
         limit(&mut table, "clump", most as i32);

@@ -159,10 +159,12 @@ impl Studio {
 /// A path as a preset in `folder` names it: relative where both are in one tree, with `/` on every system.
 fn relative_to(path: &Path, folder: &Path) -> String {
     let whole = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-    // Without `..`, which leads elsewhere where a folder is a link: both as the system has them, where it has both.
-    let (path, folder) = match (path.canonicalize(), folder.canonicalize()) {
-        (Ok(path), Ok(folder)) => (path, folder),
-        _ => (whole(path), whole(folder)),
+    let named = whole(path);
+    // Without `..`, which leads elsewhere where a folder is a link: both folders as the system has them, where it has both.
+    let own = named.parent().and_then(|own| own.canonicalize().ok());
+    let (path, folder) = match (own, named.file_name(), folder.canonicalize()) {
+        (Some(own), Some(name), Ok(folder)) => (own.join(name), folder),
+        _ => (named.clone(), whole(folder)),
     };
     let common = path
         .components()
@@ -170,7 +172,7 @@ fn relative_to(path: &Path, folder: &Path) -> String {
         .take_while(|(a, b)| a == b)
         .count();
     if common <= 1 {
-        return path.display().to_string().replace('\\', "/");
+        return named.display().to_string().replace('\\', "/");
     }
     let up = folder.components().skip(common).map(|_| "..".to_owned());
     let down = path.components().skip(common);
