@@ -385,10 +385,14 @@ fn what_is_shrunk_to_a_point_is_soon_done() {
     let topology = Topology::new(&positions, &triangles).unwrap();
     let topology = topology.with_creases(&positions, TURN_COSINE).unwrap();
     let view = from(Vec3::new(15.0, 30.0, 60.0));
+    // The shortest of three: something else may run beside.
     let took = |positions: &[Vec3]| {
-        let start = std::time::Instant::now();
-        all_of(&topology, positions, &view);
-        start.elapsed().as_secs_f32()
+        let tries = [(); 3].map(|()| {
+            let start = std::time::Instant::now();
+            all_of(&topology, positions, &view);
+            start.elapsed().as_secs_f32()
+        });
+        tries.into_iter().fold(f32::INFINITY, f32::min)
     };
     let apart_s = took(&positions);
     let shrunk_s = took(&vec![Vec3::ONE; positions.len()]);
