@@ -1,12 +1,12 @@
 //! Layers: added, named, switched off, looked at alone, put in order, copied, taken away.
 
-use crate::pane::{Kind, Pane, click, names, node, open_all, shows, type_into};
+use crate::pane::{Kind, Pane, click, names, node, open_all, primary, shows, type_into};
 use effects::preset::{LayerSpec, PresetErrors};
 use effects::wgsl::Stroke;
 use effects::{
     Input, Joints, Param, ParamKind, Parameters, Program, Registry, StrokeEffect, Values,
 };
-use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2};
+use eframe::egui::{Event, Key};
 use egui_kittest::Harness;
 use egui_kittest::kittest::NodeT;
 use stage::Preset;
@@ -78,22 +78,14 @@ fn layers_are_dragged_to_another_place() {
     let mut harness = Pane::new(Kind::Layers, LOOK).harness(300.0);
     let from = node(&harness, "dark").rect().center();
     let to = node(&harness, "hair.silhouette").rect().center_top();
-    let button = |harness: &Harness<Pane>, pos: Pos2, pressed| {
-        harness.event(Event::PointerButton {
-            pos,
-            button: PointerButton::Primary,
-            pressed,
-            modifiers: Modifiers::NONE,
-        });
-    };
     harness.event(Event::PointerMoved(from));
-    button(&harness, from, true);
+    harness.event(primary(from, true));
     harness.run();
     for step in 1..=4 {
         harness.event(Event::PointerMoved(from.lerp(to, step as f32 / 4.0)));
         harness.run();
     }
-    button(&harness, to, false);
+    harness.event(primary(to, false));
     harness.run();
     assert_eq!(layers(&harness), ["dark", "hair.silhouette", "hair.base"]);
 }
@@ -104,16 +96,8 @@ fn a_layer_that_is_gone_may_be_dropped() {
     let mut harness = Pane::new(Kind::Layers, LOOK).harness(300.0);
     let from = node(&harness, "dark").rect().center();
     let to = node(&harness, "hair.silhouette").rect().center_top();
-    let button = |harness: &Harness<Pane>, pos: Pos2, pressed| {
-        harness.event(Event::PointerButton {
-            pos,
-            button: PointerButton::Primary,
-            pressed,
-            modifiers: Modifiers::NONE,
-        });
-    };
     harness.event(Event::PointerMoved(from));
-    button(&harness, from, true);
+    harness.event(primary(from, true));
     harness.run();
     harness.event(Event::PointerMoved(from.lerp(to, 0.5)));
     harness.run();
@@ -126,7 +110,7 @@ fn a_layer_that_is_gone_may_be_dropped() {
         harness.event(Event::PointerMoved(from.lerp(to, step as f32 / 4.0)));
         harness.run();
     }
-    button(&harness, to, false);
+    harness.event(primary(to, false));
     harness.run();
     assert_eq!(harness.state().text, without);
 }

@@ -1,6 +1,8 @@
 //! Hair styles and motion scripts: lists of parts, and places on the head.
 
-use crate::pane::{Kind, Pane, click, names, node, open_all, set_number, shows, type_into};
+use crate::pane::{
+    Kind, Pane, click, names, node, open_all, primary, set_number, shows, type_into,
+};
 use egui_kittest::Harness;
 use std::path::Path;
 
@@ -133,15 +135,9 @@ fn what_is_typed_as_a_zone_goes_stays_where_it_is() {
     harness.run();
     // All in one frame, as where the window is slow.
     let pos = node(&harness, "remove zone fringe").rect().center();
-    let button = |pressed| eframe::egui::Event::PointerButton {
-        pos,
-        button: eframe::egui::PointerButton::Primary,
-        pressed,
-        modifiers: eframe::egui::Modifiers::NONE,
-    };
     let moved = eframe::egui::Event::PointerMoved(pos);
     let events = &mut harness.input_mut().events;
-    events.extend([moved, button(true), button(false)]);
+    events.extend([moved, primary(pos, true), primary(pos, false)]);
     harness.step();
     says(&harness, "edits: [(zone: \"tail\", clump: 0, size: 3)]");
     assert_eq!(harness.state().refused, Vec::<String>::new());
@@ -206,7 +202,7 @@ fn places_are_numbers_too() {
 
 #[test]
 fn places_are_dragged_on_the_map() {
-    use eframe::egui::{Event, Modifiers, PointerButton, Pos2, pos2};
+    use eframe::egui::{Event, Pos2, pos2};
     let mut harness = shown(Kind::Style, STYLE);
     let map = node(&harness, "zone fringe map").rect().shrink(7.0);
     let at = |longitude: f32, latitude: f32| {
@@ -216,22 +212,14 @@ fn places_are_dragged_on_the_map() {
         )
     };
     let drag = |harness: &mut Harness<Pane>, from: Pos2, to: Pos2| {
-        let button = |harness: &Harness<Pane>, pos, pressed| {
-            harness.event(Event::PointerButton {
-                pos,
-                button: PointerButton::Primary,
-                pressed,
-                modifiers: Modifiers::NONE,
-            });
-        };
         harness.event(Event::PointerMoved(from));
-        button(harness, from, true);
+        harness.event(primary(from, true));
         harness.run();
         for share in [0.5, 1.0] {
             harness.event(Event::PointerMoved(from.lerp(to, share)));
             harness.run();
         }
-        button(harness, to, false);
+        harness.event(primary(to, false));
         harness.run();
     };
     drag(&mut harness, at(-70.0, 72.0), at(-90.0, 45.0));

@@ -2,6 +2,7 @@
 
 use effects::Registry;
 use eframe::egui::accesskit::Toggled;
+use eframe::egui::{Event, Modifiers, PointerButton, Pos2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use egui_kittest::{Harness, Node};
 use viewer::edit::Edit;
@@ -120,6 +121,16 @@ pub fn open_all(harness: &mut Harness<Pane>) {
     }
 }
 
+/// The primary button goes down or up there.
+pub fn primary(pos: Pos2, pressed: bool) -> Event {
+    Event::PointerButton {
+        pos,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    }
+}
+
 /// Whether a text is to be read somewhere.
 pub fn shows(harness: &Harness<Pane>, part: &str) -> bool {
     let mut texts = harness.root().children_recursive().flat_map(|node| {
@@ -147,7 +158,7 @@ pub fn click(harness: &mut Harness<Pane>, name: &str) {
 
 /// Types a text into the field of that name, in place of what is there, and presses Enter.
 pub fn type_into(harness: &mut Harness<Pane>, name: &str, text: &str) {
-    use eframe::egui::{Key, Modifiers};
+    use eframe::egui::Key;
     node(harness, name).focus();
     harness.run();
     harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
