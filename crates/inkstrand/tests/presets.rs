@@ -202,14 +202,16 @@ fn places(text: &str, registry: &Registry) -> Vec<Place> {
     places
 }
 
-/// Fields of sections and effects that have been met: each is spoilt in the first preset that has it, as there are many, and some have nothing that others lack.
+/// Fields of sections and effects that have been met: each is spoilt in the first preset that has it, as there are many, and some have nothing that others lack; with
+/// `INKSTRAND_PRESETS=all` in each.
 #[derive(Default)]
 struct Firsts(HashSet<(String, *const Param)>);
 
 impl Firsts {
     fn is_first(&mut self, text: &str, place: &Place) -> bool {
         let name = &text[place.name.clone()];
-        self.0.insert((name.to_owned(), place.table))
+        let wants_all = std::env::var("INKSTRAND_PRESETS").is_ok_and(|wanted| wanted == "all");
+        self.0.insert((name.to_owned(), place.table)) || wants_all
     }
 }
 

@@ -43,17 +43,15 @@ impl WatchedFiles {
             let is_ours =
                 event.need_rescan() || names.any(|name| ours.contains(&name) || !is_output(&name));
             drop(ours);
-            let may_lose = may_lose(event.kind);
-            if may_lose {
+            if !is_ours {
+                return;
+            }
+            if may_lose(event.kind) {
                 let mut lost = lost.lock().unwrap_or_else(PoisonError::into_inner);
                 lost.extend(event.paths);
             }
-            if is_ours {
-                told.store(true, Ordering::Relaxed);
-            }
-            if is_ours || may_lose {
-                wake();
-            }
+            told.store(true, Ordering::Relaxed);
+            wake();
         });
         Self {
             folders: BTreeSet::new(),
@@ -79,19 +77,17 @@ impl WatchedFiles {
         let names = files.iter().chain(&real).filter_map(|file| name_of(file));
         *self.names.lock().unwrap_or_else(PoisonError::into_inner) = names.collect();
         let others: Vec<PathBuf> = self.watched.difference(&self.folders).cloned().collect();
-        for folder in &others {
-            self.unwatch(folder);
-        }
+        others.iter().for_each(|folder| self.unwatch(folder));
         self.watch_missing();
     }
 
     /// Whether something changed since it was last asked.
     pub fn has_changed(&mut self) -> bool {
         let gone = std::mem::take(&mut *self.gone.lock().unwrap_or_else(PoisonError::into_inner));
-        let has_lost = gone.iter().filter(|path| self.unwatch(path)).count() > 0;
+        gone.iter().for_each(|path| self.unwatch(path));
         // What came with a folder that wasn't there, nobody has told.
         let has_more = self.watch_missing();
-        self.has_changed.swap(false, Ordering::Relaxed) || has_more || has_lost
+        self.has_changed.swap(false, Ordering::Relaxed) || has_more
     }
 
     /// Whether a folder isn't watched yet, so that [`Self::has_changed`] is to be asked in a while without anybody's doing.
@@ -100,14 +96,13 @@ impl WatchedFiles {
         self.watcher.is_some() && self.watched != self.folders
     }
 
-    /// Whether it was watched.
-    fn unwatch(&mut self, folder: &Path) -> bool {
-        let was_watched = self.watched.remove(folder);
-        if was_watched && let Some(watcher) = &mut self.watcher {
+    fn unwatch(&mut self, folder: &Path) {
+        if self.watched.remove(folder)
+            && let Some(watcher) = &mut self.watcher
+        {
             // It may be no more there.
             let _ = watcher.unwatch(folder);
         }
-        was_watched
     }
 
     /// Watches the folders that are not watched yet, as far as they can be. Whether there were such.
@@ -195,7 +190,9 @@ mod tests {
         let mut files = WatchedFiles::new(Arc::new(move || wakes.store(true, Ordering::Relaxed)));
         files.watch(std::slice::from_ref(&file));
         assert!(!files.has_changed());
-        fs::write(place.path().join("frame_0001.png"), "").unwrap();
+        // As we export it: written beside, and renamed.
+        let picture = WholeFile::create(&place.path().join("frame_0001.png")).unwrap();
+        picture.finish().unwrap();
         std::thread::sleep(Duration::from_millis(200));
         assert!(!files.has_changed() && !woken.load(Ordering::Relaxed));
         fs::write(place.path().join("b.tfx"), "").unwrap();

@@ -2,13 +2,14 @@
 
 use super::items::{Change, List, new_name};
 use super::look::about;
+use super::parts::{quoted, text_of, with};
 use crate::controls::{Cells, Form, Icon, Row, Search, cell_text, icon_button, text_line};
 use crate::edit::{Edit, Place};
 use crate::inherited::{Inherited, InheritedLayer};
 use crate::layers_shown::LayersShown;
-use effects::preset::edit::{self, Step, written};
-use effects::preset::{LAYER, may_say, read_value, suggestion};
-use effects::{AnyEffect, BrushSection, Param, ParamKind, Registry, Value};
+use effects::preset::edit::{self, Step};
+use effects::preset::{LAYER, may_say, suggestion};
+use effects::{AnyEffect, BrushSection, Param, ParamKind, Registry};
 use eframe::egui::{ComboBox, RichText, ScrollArea, Ui};
 use stage::{Preset, Sections};
 use std::collections::BTreeSet;
@@ -184,20 +185,6 @@ fn toggle(names: &mut BTreeSet<String>, name: &str) {
     }
 }
 
-/// A text that a field of a layer says.
-fn text_of(item: &str, field: &str) -> Option<String> {
-    let text = edit::get(item, &[Step::Field(field)])?;
-    match read_value(text, &ParamKind::Text) {
-        Ok(Value::Text(text)) => text,
-        _ => None,
-    }
-}
-
-/// A text as it is written.
-fn quoted(text: &str) -> String {
-    written(&Value::Text(Some(text.to_owned())), &ParamKind::Text)
-}
-
 impl<'a> Found<'a> {
     fn read(
         item: &'a str,
@@ -228,6 +215,11 @@ impl<'a> Found<'a> {
             place,
             below,
         }
+    }
+
+    /// Whether it says its effect. Without one it is the base's layer of its name: by another it would be none.
+    fn has_effect(&self) -> bool {
+        edit::get(self.item, &[Step::Field("effect")]).is_some()
     }
 
     fn own_form(&self) -> Form<'_> {
@@ -287,9 +279,7 @@ impl<'a> Found<'a> {
             true => search,
             false => &all,
         };
-        // Without an effect of its own it is the base's layer of that name: by another it would be none.
-        let has_effect = edit::get(self.item, &[Step::Field("effect")]).is_some();
-        let renamed = match has_effect && search.matches(&["name", "rename", &self.name]) {
+        let renamed = match self.has_effect() && search.matches(&["name", "rename", &self.name]) {
             true => self.name_row(ui, names, edits),
             false => None,
         };
@@ -385,8 +375,7 @@ impl<'a> Found<'a> {
     fn copy(&self, names: &BTreeSet<String>) -> String {
         let name = new_name(&self.name, |name| is_taken(name, names));
         let mut copy = with(self.item, &[Step::Field("name")], &quoted(&name));
-        let has_effect = edit::get(self.item, &[Step::Field("effect")]).is_some();
-        let Some(below) = self.below.filter(|_| !has_effect) else {
+        let Some(below) = self.below.filter(|_| !self.has_effect()) else {
             return copy;
         };
         let mut add = |path: &[Step], value: &str| {
@@ -408,11 +397,6 @@ impl<'a> Found<'a> {
         }
         copy
     }
-}
-
-/// A layer's text with another value at a place; as it was where it can't have that.
-fn with(item: &str, path: &[Step], value: &str) -> String {
-    edit::set(item, path, value).unwrap_or_else(|_| item.to_owned())
 }
 
 /// Whether a new layer can't have a name: it is another layer's, or a section's.

@@ -79,7 +79,7 @@ fn body_key_list(ui: &mut Ui, text: &str, part: &FilePart, search: &Search, edit
         None | Some(Asked::Of(Change::Move(..))) => {}
         Some(Asked::Add) => {
             let new = match items.last() {
-                Some(last) => with(last, "time", &later(last).to_string()),
+                Some(last) => with(last, &[Step::Field("time")], &later(last).to_string()),
                 None => {
                     let bodies = items_of(text, "bodies");
                     let name = bodies.iter().find_map(|body| text_of(body, "name"));
@@ -89,7 +89,11 @@ fn body_key_list(ui: &mut Ui, text: &str, part: &FilePart, search: &Search, edit
             edits.push(parts.add(text, &new));
         }
         Some(Asked::Of(Change::Duplicate(index))) => {
-            let copy = with(items[index], "time", &later(items[index]).to_string());
+            let copy = with(
+                items[index],
+                &[Step::Field("time")],
+                &later(items[index]).to_string(),
+            );
             edits.push(Edit::Insert(place, items.len(), copy));
         }
         Some(Asked::Of(Change::Remove(index))) => edits.push(Edit::Remove(place.item(index))),
@@ -212,7 +216,7 @@ fn timed_list(
         }
         Some(Asked::Of(Change::Duplicate(index))) => {
             edits.extend(time_after(&times, index).map(|time| {
-                let copy = with(items[index], "time", &time.to_string());
+                let copy = with(items[index], &[Step::Field("time")], &time.to_string());
                 Edit::Insert(place, index + 1, copy)
             }));
         }

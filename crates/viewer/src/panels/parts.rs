@@ -165,7 +165,7 @@ pub(super) fn quoted(text: &str) -> String {
     edit::written(&Value::Text(Some(text.to_owned())), &ParamKind::Text)
 }
 
-/// An item with another value of a field; as it was where it can't have that.
-pub(super) fn with(item: &str, field: &str, value: &str) -> String {
-    edit::set(item, &[Step::Field(field)], value).unwrap_or_else(|_| item.to_owned())
+/// An item with another value at a place in it; as it was where it can't have that.
+pub(super) fn with(item: &str, path: &[Step], value: &str) -> String {
+    edit::set(item, path, value).unwrap_or_else(|_| item.to_owned())
 }

@@ -141,7 +141,7 @@ fn zone_list(
         }
         Some(Asked::Of(Change::Duplicate(index))) => {
             let name = quoted(&new_name(&names[index], taken));
-            let copy = with(items[index], "name", &name);
+            let copy = with(items[index], &[Step::Field("name")], &name);
             edits.push(Edit::Insert(place, index + 1, copy));
         }
         Some(Asked::Of(Change::Move(from, to))) => edits.push(Edit::Move(place, from, to)),
