@@ -32,6 +32,9 @@ struct Tests {
 pub fn run() -> Outcome {
     Inkstrand::take_from_tests();
     let mut programs = tests_of(&program::built_with_tests()?);
+    if programs.is_empty() {
+        return Err("cargo tells of no program of tests".into());
+    }
     programs.sort_by_key(|tests| !tests.name.ends_with(LONGEST));
     let ends = work::on_all_cores(&programs, "programs of tests", |tests| {
         let start = Instant::now();

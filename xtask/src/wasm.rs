@@ -8,8 +8,14 @@ use crate::program::{cargo, on_ci, succeed};
 /// The web's target.
 pub const TARGET: &str = "wasm32-unknown-unknown";
 
-/// The tops of the layers below the programs: they pull in all the others.
-const TOPS: &[&str] = &["stage", "render", "effects-builtin"];
+/// The tops of the layers below the programs: they pull in all the others, but for `document`, which watches files.
+const TOPS: &[&str] = &[
+    "stage",
+    "reference",
+    "effects-builtin",
+    "effects-cartoon",
+    "effects-surface",
+];
 
 /// Checks them, where the target is installed: nothing is linked there that code would be made for.
 ///

@@ -13,7 +13,14 @@ use std::path::Path;
 
 fn main() {
     let mut registry = Registry::new();
-    effects_builtin::register(&mut registry).expect("no two of them have one id");
+    let register = [
+        effects_builtin::register,
+        effects_cartoon::register,
+        effects_surface::register,
+    ];
+    for register in register {
+        register(&mut registry).expect("no two of them have one id");
+    }
     for line in io::stdin().lines() {
         let line = line.expect("whoever runs this writes UTF-8");
         let (kind, path) = line.split_once(' ').expect("a kind and a path");

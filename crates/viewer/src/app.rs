@@ -29,6 +29,8 @@ pub struct App {
     panes: Tree<Pane>,
     /// What was dropped and is not taken yet.
     dropped: Vec<PathBuf>,
+    /// The prompt that was open when the window was to close: it is there again where its user stays.
+    behind: Option<Prompt>,
 }
 
 impl App {
@@ -60,6 +62,7 @@ impl App {
             studio,
             panes: panes::first_tree(),
             dropped: Vec::new(),
+            behind: None,
         }
     }
 
@@ -106,7 +109,9 @@ impl App {
             .is_some_and(Documents::is_changed);
         if is_asked && is_changed && !self.studio.may_close {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);
-            self.studio.prompt = Some(Prompt::Unsaved(None));
+            let before = self.studio.prompt.replace(Prompt::Unsaved(None));
+            let before = before.filter(|before| !matches!(before, Prompt::Unsaved(_)));
+            self.behind = before.or(self.behind.take());
         }
     }
 }
@@ -136,6 +141,9 @@ impl eframe::App for App {
             let next = prompt.show(ui, &mut self.studio);
             if self.studio.prompt.is_none() {
                 self.studio.prompt = next;
+            }
+            if self.studio.prompt.is_none() && !self.studio.may_close {
+                self.studio.prompt = self.behind.take();
             }
         }
         self.studio.after_frame();

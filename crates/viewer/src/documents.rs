@@ -304,20 +304,13 @@ impl Documents {
 
     /// The preset, its base, that one's base and so on, each with its folder and text, as far as they can be read.
     fn chain(&self) -> impl Iterator<Item = (PathBuf, Arc<str>)> {
-        let preset = (self.folder(), self.preset().text().clone());
-        let below = |(folder, text): &(PathBuf, Arc<str>)| {
-            let path = base_of(folder, text)?;
-            let text = hair_io::read_text(&path, hair_io::MOST_OF_TEXT).ok()?;
-            Some((path.parent()?.to_owned(), text.into()))
-        };
-        std::iter::successors(Some(preset), below).take(1 + MOST_BASES)
+        chain(self.folder(), self.preset().text().clone())
     }
 
     /// The files that the preset builds on, also one that can't be read.
     #[must_use]
     pub fn bases(&self) -> Vec<PathBuf> {
-        let base = |(folder, text): (PathBuf, Arc<str>)| base_of(&folder, &text);
-        self.chain().filter_map(base).collect()
+        bases(self.folder(), self.preset().text().clone())
     }
 
     /// A text that is no longer named: one with nothing to be kept is closed.
@@ -475,6 +468,22 @@ impl Documents {
             document.keep_recovery_copy();
         }
     }
+}
+
+/// A preset of a folder, its base, that one's base and so on, each with its folder and text, as far as they can be read.
+fn chain(folder: PathBuf, text: Arc<str>) -> impl Iterator<Item = (PathBuf, Arc<str>)> {
+    let below = |(folder, text): &(PathBuf, Arc<str>)| {
+        let path = base_of(folder, text)?;
+        let text = hair_io::read_text(&path, hair_io::MOST_OF_TEXT).ok()?;
+        Some((path.parent()?.to_owned(), text.into()))
+    };
+    std::iter::successors(Some((folder, text)), below).take(1 + MOST_BASES)
+}
+
+/// The files that the text of a preset in `folder` builds on, also one that can't be read.
+pub(crate) fn bases(folder: PathBuf, text: Arc<str>) -> Vec<PathBuf> {
+    let base = |(folder, text): (PathBuf, Arc<str>)| base_of(&folder, &text);
+    chain(folder, text).filter_map(base).collect()
 }
 
 /// The base that the text of a preset in `folder` names.

@@ -117,6 +117,8 @@ pub struct Studio {
     last_housekeeping: Instant,
     /// Where the picture was, pixels; 0 before it was anywhere.
     pub picture_px: [u32; 2],
+    /// Whether it is in this frame of the window: it may be behind another tab.
+    pub is_picture_there: bool,
     /// Something moves that is not time: the view, the light, a parameter.
     pub is_dragging: bool,
     /// Whether the picture has the keyboard.
@@ -180,6 +182,7 @@ impl Studio {
             read: None,
             last_housekeeping: Instant::now(),
             picture_px: [0, 0],
+            is_picture_there: false,
             is_dragging: false,
             presses: 0,
             is_picture_focused: false,

@@ -207,6 +207,12 @@ impl Engine {
         is_new
     }
 
+    /// What was wished for last.
+    #[must_use]
+    pub fn last(&self) -> Option<&Wish> {
+        self.last.as_ref()
+    }
+
     /// Whether the newest wish has no answer yet; there will be one, and the window is woken.
     #[must_use]
     pub fn is_drawing(&self) -> bool {

@@ -3,6 +3,7 @@
 use super::painter::{Backend, Painter};
 use super::slot::Slot;
 use super::{Look, Wish};
+use crate::documents::bases;
 use effects::Registry;
 use stage::Hand;
 use std::collections::BTreeMap;
@@ -67,7 +68,13 @@ impl Thumbnails {
                     painter = Painter::new();
                     Thumbnail::Failed("drawing it failed by a bug".to_owned())
                 });
-                let others = slot.files().filter(|file| *file != path);
+                let mut others: Vec<PathBuf> = slot.files().collect();
+                if matches!(thumbnail, Thumbnail::Failed(_)) {
+                    others.extend(bases_of(&path)); // one of them may be what is to be mended
+                    others.sort();
+                    others.dedup();
+                }
+                let others = others.into_iter().filter(|file| *file != path);
                 let others = others.map(|file| (stamp(&file), file));
                 let mut stamps = vec![(path.clone(), before)];
                 stamps.extend(others.map(|(stamp, file)| (file, stamp)));
@@ -128,6 +135,16 @@ fn stamp(path: &Path) -> Stamp {
     Some((about.len(), about.modified().ok()?))
 }
 
+/// The files that a preset builds on, where it can be read.
+fn bases_of(path: &Path) -> Vec<PathBuf> {
+    let text = hair_io::read_text(path, hair_io::MOST_OF_TEXT);
+    text.map_or_else(|_| Vec::new(), |text| bases(folder_of(path), text.into()))
+}
+
+fn folder_of(path: &Path) -> PathBuf {
+    path.parent().unwrap_or(Path::new("")).to_owned()
+}
+
 fn draw(path: &Path, slot: &mut Slot, painter: &mut Painter) -> Thumbnail {
     let text = match hair_io::read_text(path, hair_io::MOST_OF_TEXT) {
         Ok(text) => text,
@@ -135,7 +152,7 @@ fn draw(path: &Path, slot: &mut Slot, painter: &mut Painter) -> Thumbnail {
     };
     let look = Look {
         name: path.display().to_string(),
-        folder: path.parent().unwrap_or(Path::new("")).to_owned(),
+        folder: folder_of(path),
         text: text.into(),
         ..Look::default()
     };

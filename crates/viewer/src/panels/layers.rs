@@ -371,11 +371,11 @@ impl<'a> Found<'a> {
         })
     }
 
-    /// The layer's text under a new name. What one that changes a layer of the base has by its name is written in it.
+    /// The layer's text under a new name. What it has by its name of a layer of the base is written in it.
     fn copy(&self, names: &BTreeSet<String>) -> String {
         let name = new_name(&self.name, |name| is_taken(name, names));
         let mut copy = with(self.item, &[Step::Field("name")], &quoted(&name));
-        let Some(below) = self.below.filter(|_| !self.has_effect()) else {
+        let Some(below) = self.below else {
             return copy;
         };
         let mut add = |path: &[Step], value: &str| {

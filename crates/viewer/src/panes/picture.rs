@@ -40,6 +40,7 @@ pub(super) fn picture(ui: &mut Ui, studio: &mut Studio) {
     let most = most_px / (scale * rect.width().max(rect.height())).max(most_px);
     studio.picture_px =
         [rect.width(), rect.height()].map(|side| (side * scale * most).round().max(1.0) as u32);
+    studio.is_picture_there = true;
     let painter = ui.painter_at(area);
     paint_ground(&painter, area, rect, ui.visuals().extreme_bg_color, studio);
     paint(&painter, rect, studio);

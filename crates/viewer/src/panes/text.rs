@@ -45,7 +45,12 @@ pub(super) fn text(ui: &mut Ui, studio: &mut Studio) {
                 .color(ui.visuals().error_fg_color),
         );
     }
-    let mut text = document.text().to_string();
+    // Returns are not seen, and are written again: what is typed has line feeds alone.
+    let has_returns = has_returns(document.text());
+    let mut text = match has_returns {
+        true => document.text().replace("\r\n", "\n"),
+        false => document.text().to_string(),
+    };
     let lines: Vec<usize> = mistakes.iter().map(|(line, _)| *line).collect();
     let colors = Colors::of(ui);
     let mut layouter = |ui: &Ui, text: &dyn eframe::egui::TextBuffer, _: f32| {
@@ -66,8 +71,17 @@ pub(super) fn text(ui: &mut Ui, studio: &mut Studio) {
     if response.inner.changed() {
         // Ctrl+Z is ours before it is the field's: what is typed within a second is one step of undo.
         let second = ui.input(|input| input.time) as u64;
+        if has_returns {
+            text = text.replace("\r\n", "\n").replace('\n', "\r\n");
+        }
         studio.write(which, text, Some(u64::MAX / 2 + second));
     }
+}
+
+/// Whether all lines of a text end with a return and a line feed.
+fn has_returns(text: &str) -> bool {
+    let lines = text.matches('\n').count();
+    lines > 0 && text.matches("\r\n").count() == lines
 }
 
 struct Colors {

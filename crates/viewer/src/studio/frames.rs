@@ -29,6 +29,7 @@ impl Studio {
 
     /// What happens before a frame of the window is made: time passes, pictures and changed files come in.
     pub fn before_frame(&mut self) {
+        self.is_picture_there = false;
         if let Some(action) = self.pending {
             self.act(action);
             self.pending = None;
@@ -98,7 +99,7 @@ impl Studio {
         let mut looks = vec![look];
         looks.extend(self.compare.as_ref().map(|compare| compare.look.clone()));
         let is_moving = self.transport.is_playing || self.is_dragging;
-        let is_new = self.engine.wish(Wish {
+        let wish = Wish {
             looks,
             opened: self.opened,
             camera: Some(self.camera()),
@@ -108,7 +109,19 @@ impl Studio {
             time_s: self.transport.shown_s(),
             hand: self.grip.hand().clone(),
             backend: self.backend,
-        });
+        };
+        // Of one that nobody sees only its mistakes are of interest: it stays as it was seen last.
+        let last = self.engine.last().filter(|_| !self.is_picture_there);
+        let wish = match last.cloned() {
+            Some(last) => Wish {
+                looks: wish.looks,
+                opened: wish.opened,
+                is_moving: false,
+                ..last
+            },
+            None => wish,
+        };
+        let is_new = self.engine.wish(wish);
         self.is_sharp &= !is_new;
         let is_held = self.ctx.input(|input| input.pointer.any_down());
         if self.transport.is_playing && !self.engine.is_drawing() {

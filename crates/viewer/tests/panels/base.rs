@@ -85,10 +85,17 @@ fn layers_of_the_base_are_changed_by_their_names() {
 fn layers_of_the_base_keep_their_names_and_are_copied_whole() {
     let look =
         r#"(version: 1, base: "twin-tails.ron", layers: [(name: "contour", params: (width: 4))])"#;
-    let mut harness = Pane::new(Kind::Layers, look).harness(300.0);
-    open_all(&mut harness);
+    let harness = copied_whole(look);
     let all = names(&harness);
     assert!(!all.contains(&"contour name".to_owned()), "{all:#?}");
+    // One that says its effect, too, has as much of the base's.
+    copied_whole(&look.replace("(name", r#"(effect: "hair.ink", name"#));
+}
+
+/// The pane of a look in which `contour` has been duplicated.
+fn copied_whole(look: &str) -> Harness<'_, Pane> {
+    let mut harness = Pane::new(Kind::Layers, look).harness(300.0);
+    open_all(&mut harness);
     click(&mut harness, "duplicate layer contour");
     let Pane { text, refused, .. } = harness.state();
     assert_eq!(*refused, Vec::<String>::new());
@@ -103,6 +110,7 @@ fn layers_of_the_base_keep_their_names_and_are_copied_whole() {
         use effects::section::Section;
         assert_eq!(own.values.get(index), copy.values.get(index), "{text}");
     }
+    harness
 }
 
 #[test]

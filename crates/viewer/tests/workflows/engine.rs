@@ -4,10 +4,13 @@ use crate::common::{LOOK, Looks, viewer, wait_for, wait_for_picture};
 use stage::Hand;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
-use viewer::engine::{Answer, Backend, Drawn, Engine, Look, Wish};
+use viewer::engine::{Answer, Backend, Drawn, Engine, Look, Thumbnail, Thumbnails, Wish};
 
 /// Dynamics that are not at rest, and take steps for hours before their first picture.
 const ENDLESS: &str = "dynamics: (gravity: 0.9, step: 0.00001, warm_up: 600),";
+
+/// How long a picture may take on a busy machine.
+const PATIENCE: Duration = Duration::from_secs(60);
 
 /// The look with another part.
 fn with(part: &str) -> String {
@@ -36,7 +39,7 @@ fn wish(looks: &Looks, text: &str) -> Wish {
 /// The next answer; nothing where there is none in a minute.
 fn next_answer(engine: &mut Engine) -> Option<Answer> {
     let started = Instant::now();
-    while started.elapsed() < Duration::from_secs(60) {
+    while started.elapsed() < PATIENCE {
         if let Some(answer) = engine.answer() {
             return Some(answer);
         }
@@ -286,4 +289,28 @@ fn a_layer_of_nothing_is_told_while_it_is_edited() {
     assert!(of_zones.contains("no zone `nowhere`"), "{of_zones}");
     let of_meshes = told(CUBES, "on: \"*\"", "on: \"nowhere\"");
     assert!(of_meshes.contains("`nowhere`"), "{of_meshes}");
+}
+
+/// A small picture that can't be drawn, as its base can't, is there once somebody has mended that.
+#[test]
+fn small_pictures_follow_bases_that_are_mended() {
+    let looks = Looks::new();
+    let based = looks.path("based.ron");
+    std::fs::write(&based, "(version: 1, base: \"look.ron\")").unwrap();
+    std::fs::write(
+        looks.path("look.ron"),
+        LOOK.replace("hair.base", "hair.bsae"),
+    )
+    .unwrap();
+    let thumbnails = Thumbnails::start(Arc::new(inkstrand::builtin_effects()), || {});
+    let wait_for = |is_so: fn(&Thumbnail) -> bool| {
+        let started = Instant::now();
+        while !is_so(&thumbnails.of(&based)) {
+            assert!(started.elapsed() < PATIENCE, "{:?}", thumbnails.of(&based));
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    };
+    wait_for(|small| matches!(small, Thumbnail::Failed(_)));
+    std::fs::write(looks.path("look.ron"), LOOK).unwrap();
+    wait_for(|small| matches!(small, Thumbnail::Drawn(_)));
 }

@@ -8,6 +8,7 @@ use egui_kittest::kittest::Queryable;
 use std::path::Path;
 use viewer::app::App;
 use viewer::documents::Which::{Motion, Preset, Style};
+use viewer::prompt::Prompt;
 use viewer::studio::Tool;
 
 #[test]
@@ -137,6 +138,38 @@ fn changes_outlive_a_crash() {
     assert_eq!(text(&harness), changed);
     undo(&mut harness);
     assert_eq!(text(&harness), LOOK);
+}
+
+/// Who was to close the window, and stays, is asked again what becomes of the copies.
+#[test]
+fn copies_are_offered_still_where_the_window_stays() {
+    let looks = Looks::new();
+    let recovery = document::Recovery::in_folder(&looks.path("copies"));
+    let mut left = document::Document::open(&looks.path("look.ron"), &recovery).unwrap();
+    left.edit(format!("// lost\n{LOOK}"), None);
+    left.keep_recovery_copy();
+    drop(left);
+    let size = Vec2::new(1280.0, 800.0);
+    let mut harness = recovering(Some(looks.path("look.ron")), size, recovery);
+    harness.run_steps(3);
+    let studio = &mut harness.state_mut().studio;
+    assert!(matches!(studio.prompt, Some(Prompt::Recover)));
+    studio.write(Preset, format!("{LOOK}// new"), None);
+    let close = || eframe::egui::ViewportEvent::Close;
+    for _ in 0..2 {
+        let viewports = &mut harness.input_mut().viewports;
+        viewports
+            .values_mut()
+            .for_each(|window| window.events.push(close()));
+        harness.step();
+        let prompt = &harness.state().studio.prompt;
+        assert!(matches!(prompt, Some(Prompt::Unsaved(None))));
+    }
+    click(&mut harness, "Cancel");
+    let prompt = &harness.state().studio.prompt;
+    assert!(matches!(prompt, Some(Prompt::Recover)));
+    click(&mut harness, "Take the copy");
+    assert!(text(&harness).starts_with("// lost"));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::common::{LOOK, Looks, SCRIPT, viewer, wait_for, wait_for_picture};
 use crate::hands::{COMMAND, press, redo, undo};
-use eframe::egui::Key;
+use eframe::egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use viewer::app::App;
@@ -63,6 +63,27 @@ fn a_drag_back_to_its_start_takes_no_step_of_another_text() {
     write(&mut harness, Preset, &first, None);
     redo(&mut harness);
     assert_eq!(texts(&harness), [first, second]);
+}
+
+/// Lines that end with a return and a line feed go on doing so, whatever is typed.
+#[test]
+fn what_is_typed_has_the_ends_of_lines_that_the_text_has() {
+    let looks = Looks::new();
+    let before = LOOK.replace('\n', "\r\n");
+    std::fs::write(looks.path("look.ron"), &before).unwrap();
+    let mut harness = viewer(&looks);
+    harness.state_mut().show_pane(Pane::Text);
+    harness.run_steps(3);
+    harness.get_by_label("Preset text").focus();
+    harness.run_steps(2);
+    press(&mut harness, COMMAND, Key::Home);
+    harness.get_by_label("Preset text").type_text("// mine");
+    harness.run_steps(2);
+    press(&mut harness, Modifiers::NONE, Key::Enter);
+    harness.get_by_label("Preset text").type_text("// too");
+    press(&mut harness, Modifiers::NONE, Key::Enter);
+    let written = texts(&harness)[0].clone();
+    assert_eq!(written, format!("// mine\r\n// too\r\n{before}"));
 }
 
 #[test]

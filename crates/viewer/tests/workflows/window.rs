@@ -141,6 +141,32 @@ fn pictures_have_the_pixels_of_the_screen() {
     }
 }
 
+/// One that lies behind another tab is not drawn as time runs, but what is edited is read, and its mistakes are told.
+#[test]
+fn a_picture_that_nobody_sees_is_not_drawn() {
+    let looks = Looks::new();
+    let mut harness = viewer(&looks);
+    wait_for_picture(&mut harness);
+    let studio = &mut harness.state_mut().studio;
+    for time_s in [0.1, 0.2, 0.3] {
+        studio.transport.seek(time_s);
+        studio.before_frame();
+        studio.after_frame();
+        assert!(!studio.is_drawing(), "{time_s}");
+    }
+    studio.write(Preset, LOOK.replace("1.5", "1.6"), None);
+    studio.before_frame();
+    studio.after_frame();
+    assert!(studio.is_drawing());
+    wait_for_picture(&mut harness);
+    let shown = harness.state().studio.shown[0].as_ref().unwrap();
+    let [there, drawn] = [&harness.state().studio.picture_px, &shown.drawn.size_px];
+    assert_eq!(there, drawn);
+    harness.state_mut().studio.transport.seek(0.4);
+    harness.step();
+    assert!(harness.state().studio.is_drawing());
+}
+
 #[test]
 fn at_rest_the_window_sleeps() {
     let looks = Looks::new();
