@@ -122,7 +122,7 @@ fn clump(joint: Inputs, params: Params) -> Clump {
     let own = select(taper, joint.strand_taper, joint.strand_taper >= vec2<f32>(0.0));
     let profile = weight * shrink_to_tail(joint.u, own.y)
         + (1.0 - weight) * swell(joint.u, params.swell_offset);
-    // A step where root_length is 0: the root alone is narrow.
+    // Where root_length is 0 not even the root is narrow.
     let from_root = select(1.0, smoothstep(0.0, params.root_length, joint.u), joint.u < params.root_length);
     let root = mix(own.x, 1.0, from_root);
     let variation = 1.0 + params.size_variation * random_signed(joint.seed, 1u);

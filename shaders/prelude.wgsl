@@ -162,11 +162,14 @@ fn feather_place(instance: u32, count: u32) -> f32 {
 }
 
 /// Size of a feather (5.6), as a share of its basic size: 1 where `gray` is at most `full`, shrinking to
-/// nothing at `edge`. A hard step where `edge` is not above `full`.
+/// nothing at `edge`. A hard step at `edge` where that is not above `full`.
 ///
 /// Erratum: the source prints (1 - |gray - full|) / |edge - full|, which is not 0 at the edge; this is
 /// 1 - |gray - full| / |edge - full|. For a region of large grays, pass all three negated.
 fn feather_share(gray: f32, full: f32, edge: f32) -> f32 {
+    if (edge <= full) {
+        return select(0.0, 1.0, gray <= edge);
+    }
     if (gray <= full) {
         return 1.0;
     }

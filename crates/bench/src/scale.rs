@@ -228,6 +228,7 @@ fn strands(count: usize, backends: &mut Backends, frames: u32) -> Result<Vec<Row
             time_s: number as f32 / 60.0,
             material_normals: &[],
             rest_positions: &[],
+            rest_forwards: &[],
             from_ends: &[],
             path_weights: &[],
             marks: &[],

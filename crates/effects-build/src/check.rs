@@ -238,11 +238,7 @@ pub(crate) fn builtins(
                     op: BinaryOperator::ShiftLeft | BinaryOperator::ShiftRight,
                     right,
                     ..
-                } if !matches!(
-                    function.expressions[right],
-                    Expression::Literal(_) | Expression::Constant(_) | Expression::Splat { .. }
-                ) =>
-                {
+                } if !is_constant(function, right) => {
                     return refuse("a shift needs a constant number of bits in effects".to_owned());
                 }
                 _ => {}
@@ -250,6 +246,15 @@ pub(crate) fn builtins(
         }
     }
     Ok(())
+}
+
+/// Whether a number, or each of a vector's, is the same whenever the function is called.
+fn is_constant(function: &naga::Function, number: Handle<Expression>) -> bool {
+    match function.expressions[number] {
+        Expression::Literal(_) | Expression::Constant(_) => true,
+        Expression::Splat { value, .. } => is_constant(function, value),
+        _ => false,
+    }
 }
 
 /// Whether a swizzle only reorders the first components: those are all that the runtime has.

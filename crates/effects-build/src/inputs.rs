@@ -114,6 +114,7 @@ pub(crate) const INPUTS: &[Input] = &[
         // The clump declares it, and reads it where its parameters say so.
         .where_empty(|| quote!(::effects::wgsl::vec3([0.0; 3]))),
     input("rest_position", Vec3, Both, "where the strand is here at rest, head heights from the head's centre: x to its left, y up, z to the face; on a contour of a surface, which is at rest nowhere, a place that stays with it from frame to frame: x is how far along it is"),
+    input("rest_forward", Vec3, Both, "unit vector along the strand at rest, to the next joint, in the head's axes: x to its left, y up, z to the face; 0 on lines of surfaces, which are at rest nowhere"),
     input("from_ends", Vec2, Both, "how far it is, as it is seen, to where the strand begins (x) and where it ends (y), metres at its depth"),
     input("path_weight", F32, Both, "how much of a path that the effect made is there, as its `make_paths` says it; 1 on strands"),
     input("unit", F32, ToEffects, "one unit of the layer's widths in 1/300 of the head's height: 1, or a pixel's size at 720 lines")

@@ -152,6 +152,10 @@ fn builtins_that_differ_between_processors_are_refused_with_what_to_use() {
         &["src/mine.wgsl:3:", "constant number"],
     );
     assert_error(
+        &with_radius("f32((vec2<u32>(1u) << vec2<u32>(instance)).x)"),
+        &["src/mine.wgsl:3:", "constant number"],
+    );
+    assert_error(
         &with_radius("vec3<f32>(joint.u).zz.x"),
         &["src/mine.wgsl:3:", "swizzle"],
     );

@@ -28,7 +28,8 @@ impl effects::StrokeEffect for Band {
 
     fn extent(params: &Params, strand: &StrandJoints) -> Range<usize> {
         let StrandJoints { joints, seed, .. } = *strand;
-        if params.thickness <= 0.0 || random(seed, 0) >= params.strand_share {
+        let is_nothing = params.thickness <= 0.0 || params.spread * params.fullness <= 0.0;
+        if is_nothing || random(seed, 0) >= params.strand_share {
             return strand.range.start..strand.range.start;
         }
         // As far from its middle as any tooth of the strand reaches.

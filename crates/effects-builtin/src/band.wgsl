@@ -1,4 +1,4 @@
-//! inputs: arc_length, head_height, rest_position, light_direction, view_direction, forward, normal, across, clump_radius, clump_color, unit, seed
+//! inputs: arc_length, head_height, rest_position, rest_forward, light_direction, view_direction, forward, normal, across, clump_radius, clump_color, unit, seed
 
 struct Params {
     /// Where the band lies: at one height around the head, or at one distance from the roots, as on tails from their ties.
@@ -72,7 +72,7 @@ const BALL: f32 = 0.5;
 /// Over how many head heights behind `start` the band comes to its width.
 const ROOT_FADE: f32 = 0.04;
 
-/// How steep hair must be to have a ring at one height, and to have all of it, 0 level to 1 upright: along hair that lies level, as on the side of a bun, a tooth would go on
+/// How steep hair must be at rest to have a ring at one height, and to have all of it, 0 level to 1 upright: along hair that lies level, as on the side of a bun, a tooth would go on
 /// and on.
 const LEVEL: f32 = 0.2;
 const STEEP: f32 = 0.45;
@@ -96,7 +96,7 @@ fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
     let offset = place * joint.clump_radius * joint.across;
     let nothing = Stroke(offset, 0.0, 0.0, color);
     let from_root = joint.arc_length / joint.head_height - params.start;
-    let is_there = params.thickness > 0.0 && random(joint.seed, 0u) < params.strand_share;
+    let is_there = params.thickness > 0.0 && params.spread * params.fullness > 0.0 && random(joint.seed, 0u) < params.strand_share;
     if (!is_there || from_root <= 0.0) {
         return nothing;
     }
@@ -127,7 +127,7 @@ fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
     let along = saturate((half - away) / max(params.taper * half, 1e-6));
     let basic = params.spread * joint.clump_radius / f32(params.teeth);
     let size = params.fullness * basic;
-    let steep = select(smoothstep(LEVEL, STEEP, abs(joint.forward.y)), 1.0, params.along == 1u);
+    let steep = select(smoothstep(LEVEL, STEEP, abs(joint.rest_forward.y)), 1.0, params.along == 1u);
     let whole = along * lit * steep * saturate(from_root / ROOT_FADE);
     let share = without_hairlines(whole, size, 0.5 * params.thinnest * joint.unit);
     // A rim is as wide beside the tooth as before its ends, and gone where that is.

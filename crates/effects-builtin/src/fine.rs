@@ -1,7 +1,7 @@
 //! The thin fine hair stroke (5.5): lines on paths of their own, across clumps and out of the silhouette.
 
 use effects::wgsl::{hash, random, random_signed, sin_pi};
-use effects::{Hair, HairStrand, MOST_PATHS, MadePaths, strand_seed};
+use effects::{Grid, Hair, HairStrand, MOST_PATHS, MadePaths, strand_seed};
 use glam::Vec3;
 
 effects::effect!("fine");
@@ -31,16 +31,15 @@ impl effects::StrokeEffect for Fine {
     const OWN_PATHS: bool = true;
 
     fn make_paths(params: &Params, hair: &Hair, seed: u32, paths: &mut MadePaths) {
-        // Once: each is held against all others.
-        let places: Vec<AtRest> = hair.strands.iter().map(at_rest).collect();
+        let neighbors = Neighbors::of(hair);
         for (index, strand) in hair.strands.iter().enumerate() {
             let strand_seed = strand_seed(seed, strand.id);
             // A half hair is there for every other strand.
             let number = (params.per_strand + random(strand_seed, MOST_PATHS)) as u32;
-            if number == 0 || strand.particles.len() < 2 {
+            if number == 0 || strand.particles.len() < 2 || !strand.is_drawn {
                 continue;
             }
-            let neighbours = nearest(&places, index, params.neighbours as usize);
+            let neighbours = neighbors.nearest(index, params.neighbours as usize);
             for hair_number in 0..number.min(MOST_PATHS) {
                 let line = FineHair::new(params, hash(strand_seed ^ hash(hair_number)));
                 let choice = (line.choice * neighbours.len() as f32) as usize;
@@ -67,23 +66,35 @@ fn at_rest(strand: &HairStrand) -> AtRest {
     [0.0, 0.5, 1.0].map(|u| strand.point_at_rest(u))
 }
 
-/// The `number` strands that run beside strand `index` at rest, the nearest first: their roots, middles
-/// and tips are near.
-fn nearest(places: &[AtRest], index: usize, number: usize) -> Vec<usize> {
-    let own = places[index];
-    let distance = |place: &AtRest| -> f32 {
-        let pairs = own.iter().zip(place);
-        pairs.map(|(a, b)| a.distance(*b)).sum()
-    };
-    let others = (0..places.len()).filter(|&i| i != index);
-    let mut nearest: Vec<(f32, usize)> = others.map(|i| (distance(&places[i]), i)).collect();
-    let by_distance = |a: &(f32, usize), b: &(f32, usize)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
-    if nearest.len() > number {
-        nearest.select_nth_unstable_by(number - 1, by_distance);
-        nearest.truncate(number);
+/// All strands at rest.
+struct Neighbors {
+    places: Vec<AtRest>,
+    /// By their middles.
+    grid: Grid,
+}
+
+impl Neighbors {
+    fn of(hair: &Hair) -> Self {
+        let places: Vec<AtRest> = hair.strands.iter().map(at_rest).collect();
+        let middles = places.iter().map(|place| place[1]).enumerate();
+        // Some strands in each cube: a head's surface has about so many squares of this size.
+        let edge_m = 4.0 * hair.head_height_m / (places.len() as f32).sqrt().max(1.0);
+        let grid = Grid::new(middles, edge_m.max(1e-4));
+        Self { places, grid }
     }
-    nearest.sort_unstable_by(by_distance);
-    nearest.into_iter().map(|(_, i)| i).collect()
+
+    /// The `number` strands that run beside strand `index` at rest, the nearest first: their roots, middles and tips are near.
+    fn nearest(&self, index: usize, number: usize) -> Vec<usize> {
+        let own = self.places[index];
+        // No less than how far their middles are.
+        let distance = |place: &AtRest| -> f32 {
+            let pairs = own.iter().zip(place);
+            pairs.map(|(a, b)| a.distance(*b)).sum()
+        };
+        (self.grid).nearest(own[1], number, |other| {
+            (other != index).then(|| distance(&self.places[other]))
+        })
+    }
 }
 
 /// What was chosen for one hair, the same in every frame.

@@ -10,10 +10,10 @@ struct Params {
     /// How much widths differ from hair to hair: 0.3 makes them 30 % smaller to 30 % larger.
     /// @range 0..1 @default 0.3
     width_variation: f32,
-    /// Part of the hair, at each end, over which the line swells from a point to its width.
+    /// Part of the hair, of both ends together, over which the line swells from a point to its width.
     /// @unit 0 nothing to 1 all @range 0..1 @default 0.5
     taper: f32,
-    /// Where along its strand a hair begins: near the root, or at random up to here.
+    /// Where along its strand a hair begins: near the root, at 0.1, or at random from there up to here.
     /// @unit 0 root to 1 tip @constant @range 0..1 @default 0.4
     latest_start: f32,
     /// Shortest hair, in lengths of its strand; others are longer, at random.

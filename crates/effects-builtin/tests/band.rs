@@ -27,6 +27,7 @@ const HEAD_M: f32 = 0.25;
 fn joint_at(height: f32, from_root: f32) -> Joints {
     Joints {
         rest_position: vec![vec3([0.1, height, 0.4])],
+        rest_forward: vec![vec3([0.0, -1.0, 0.0])],
         arc_length: vec![from_root * HEAD_M],
         head_height: vec![HEAD_M],
         ..lit_joint(0.9, 20.0)
@@ -193,7 +194,7 @@ fn level_hair_has_none_at_one_height() {
         (-1.0, 20.0),
     ] {
         let joints = Joints {
-            forward: vec![vec3([(1.0 - steep * steep).sqrt(), steep, 0.0])],
+            rest_forward: vec![vec3([(1.0 - steep * steep).sqrt(), steep, 0.0])],
             ..joint_at(0.3, 1.0)
         };
         let got = band(&joints, 0, &at_height).radius;
@@ -202,6 +203,23 @@ fn level_hair_has_none_at_one_height() {
             "{steep}: {got}, not {expected}"
         );
         assert!((band(&joints, 0, &at_length).radius - 20.0).abs() < 1e-3);
+    }
+    // However it lies now: the head leans, or wind blows.
+    let blown = Joints {
+        forward: vec![vec3([1.0, 0.0, 0.0])],
+        ..joint_at(0.3, 1.0)
+    };
+    assert!((band(&blown, 0, &at_height).radius - 20.0).abs() < 1e-3);
+}
+
+/// Teeth of no size have no rim either.
+#[test]
+fn a_band_of_no_teeth_is_nothing() {
+    let set = [("place", "0.3"), ("slide", "0"), ("rim", "2")];
+    assert!(band(&joint_at(0.3, 1.0), 0, &set).radius > 0.0);
+    for none in [("fullness", "0"), ("spread", "0"), ("thickness", "0")] {
+        let set = [&set[..], &[none]].concat();
+        assert_eq!(band(&joint_at(0.3, 1.0), 0, &set).radius, 0.0, "{none:?}");
     }
 }
 

@@ -43,6 +43,7 @@ fn joints() -> Joints {
         view_direction: directions(60),
         across: pairs(70),
         rest_position: directions(80),
+        rest_forward: directions(120),
         normal: directions(90),
         clump_radius: numbers(100).map(|number| 10.0 * number.max(0.0)).collect(),
         clump_color: colors.collect(),

@@ -67,6 +67,25 @@ fn a_hard_step_is_legal() {
     }
 }
 
+/// Where the threshold is beyond the gray of full size, the step is where it is.
+#[test]
+fn a_region_ends_at_its_threshold() {
+    for (threshold, region, gray, radius) in [
+        ("0.2", "darker", 0.199, 4.0),
+        ("0.2", "darker", 0.201, 0.0),
+        ("0.6", "lighter", 0.599, 0.0),
+        ("0.6", "lighter", 0.601, 4.0),
+    ] {
+        let set = [
+            ("full", "0.4"),
+            ("threshold", threshold),
+            ("region", region),
+        ];
+        let got = cel(&lit_joint(gray, 20.0), 2, &set).radius;
+        assert_eq!(got, radius, "{threshold} {region} {gray}");
+    }
+}
+
 #[test]
 fn strokes_grow_from_the_root() {
     let radius = |u: f32| {

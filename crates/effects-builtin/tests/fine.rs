@@ -35,11 +35,13 @@ fn made(
             particles,
             at_rest,
             size: 15.0,
+            is_drawn: true,
         })
         .collect();
     let hair = Hair {
         strands: &strands,
         head_center: Vec3::ZERO,
+        head_center_at_rest: Vec3::ZERO,
         head_height_m: 0.24,
         light: Light::Direction(Vec3::Z),
         eye: Vec3::Z,

@@ -134,14 +134,18 @@ mod tests {
 
     #[test]
     fn a_rim_lies_where_the_mesh_turns_away_at_the_side_of_the_light() {
-        let rim = |facing: f32, light: f32| {
+        let shaded = |facing: f32, light: f32, occlusion: f32| {
             let mut turned = sample(0.5);
             turned.normal = vec![vec3([(1.0 - facing * facing).sqrt(), 0.0, facing])];
             turned.light_direction = vec![vec3([light, 0.0, 0.0])];
+            turned.occlusion = vec![occlusion];
             let settings = [("rim", "\"00FF00\""), ("rim_width", "0.3")];
             painted_sample::<MeshToon>(&turned, &settings) == [0.0, 1.0, 0.0]
         };
+        let rim = |facing, light| shaded(facing, light, 0.0);
         assert!(rim(0.2, 1.0));
         assert!(!rim(0.4, 1.0) && !rim(0.2, -1.0));
+        // Not where no light comes: in the shadow of hair, or deep in a fold.
+        assert!(shaded(0.2, 1.0, 0.5) && !shaded(0.2, 1.0, 1.0) && !shaded(0.2, 1.0, 3.0));
     }
 }

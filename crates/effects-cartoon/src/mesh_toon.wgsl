@@ -68,7 +68,7 @@ fn place(at: Sample, params: Params) -> Lookup {
 
 fn paint(at: Sample, texel: vec4<f32>, params: Params) -> vec3<f32> {
     let is_rim = params.rim.w > 0.0 && abs(dot(at.normal, at.view_direction)) < params.rim_width
-        && dot(at.normal, at.light_direction) > 0.0;
+        && dot(at.normal, at.light_direction) - at.occlusion > 0.0;
     if (is_rim) {
         return vec3<f32>(params.rim.x, params.rim.y, params.rim.z);
     }

@@ -7,14 +7,12 @@
 //! them, which are chosen once, by the hair at rest; and where a strip ends it runs out in a point.
 
 use effects::wgsl::power;
-use effects::{Hair, HairStrand, MadePaths};
+use effects::{Grid, Hair, HairStrand, MadePaths};
 use glam::Vec3;
 
-mod grid;
 mod locks;
 mod merge;
 
-use grid::Grid;
 use locks::Lock;
 
 effects::effect!("zigzag");
@@ -58,6 +56,14 @@ impl effects::StrokeEffect for Zigzag {
     const REACH: f32 = 0.14;
 
     fn make_paths(params: &Params, hair: &Hair, _seed: u32, paths: &mut MadePaths) {
+        // A strip is all on hair that the layer draws on: what lies beside neither takes part in it nor ends it.
+        let drawn = hair.strands.iter().enumerate();
+        let drawn = drawn.filter(|(_, strand)| strand.is_drawn);
+        let (own, strands): (Vec<usize>, Vec<HairStrand>) = drawn.unzip();
+        let hair = &Hair {
+            strands: &strands,
+            ..*hair
+        };
         let groups = params.groups as usize;
         let within_m = params.merge * hair.head_height_m;
         let shining = |group: usize| {
@@ -84,7 +90,7 @@ impl effects::StrokeEffect for Zigzag {
             for (group, strip) in strips.iter().enumerate() {
                 let ends = [lock, next].map(|lock| (strip.shining[lock], strip.tapers[lock]));
                 let link = link(params, hair, strands, ends, strip.shares[lock]);
-                paths.push_weighted(index, group as u32, link);
+                paths.push_weighted(own[index], group as u32, link);
             }
         }
     }
@@ -354,7 +360,7 @@ impl Neighbors {
         Self {
             grid: Grid::new(middles, edge_m.max(1e-4)),
             all,
-            head_center: hair.head_center,
+            head_center: hair.head_center_at_rest,
         }
     }
 
@@ -380,10 +386,11 @@ impl Neighbors {
                 .sum();
             2.0 * way.dot(across) > way.length() && way.length() > 0.0
         };
-        self.grid.nearest(own.points[1], |other| {
+        let nearest = self.grid.nearest(own.points[1], 1, |other| {
             let beside = &self.all[other];
             (other != index && is_beside(beside)).then(|| distance(beside))
-        })
+        });
+        nearest.first().copied()
     }
 }
 
@@ -427,6 +434,19 @@ mod tests {
 
     /// Each path's points with their weights.
     fn made(strands: &[Vec<Vec3>], light: Vec3, set: &[(&str, &str)]) -> Vec<Vec<(Vec3, f32)>> {
+        made_of(strands, |_| true, light, set)
+            .into_iter()
+            .map(|(_, path)| path)
+            .collect()
+    }
+
+    /// The same where some strands are drawn alone, each with its strand.
+    fn made_of(
+        strands: &[Vec<Vec3>],
+        is_drawn: impl Fn(u32) -> bool,
+        light: Vec3,
+        set: &[(&str, &str)],
+    ) -> Vec<(usize, Vec<(Vec3, f32)>)> {
         let strands: Vec<HairStrand> = (0..)
             .zip(strands)
             .map(|(id, particles)| HairStrand {
@@ -434,11 +454,13 @@ mod tests {
                 particles,
                 at_rest: particles,
                 size: 12.0,
+                is_drawn: is_drawn(id),
             })
             .collect();
         let hair = Hair {
             strands: &strands,
             head_center: Vec3::ZERO,
+            head_center_at_rest: Vec3::ZERO,
             head_height_m: 0.24,
             light: Light::Direction(light),
             eye: Vec3::new(0.0, 0.0, 1.5),
@@ -448,7 +470,8 @@ mod tests {
         assert_eq!(paths.fault(), None);
         let path = |path: effects::MadePath| {
             let weights = path.weights.iter().copied();
-            path.points.iter().copied().zip(weights).collect()
+            let points = path.points.iter().copied().zip(weights);
+            (path.strand, points.collect())
         };
         paths.iter().map(path).collect()
     }
@@ -499,6 +522,24 @@ mod tests {
         assert!(weights(&all).filter(|weight| *weight > 0.9).count() > 24 * POINTS / 2);
         assert!(made(&cap(1), FROM_ABOVE, &[]).is_empty());
         assert!(made(&[], FROM_ABOVE, &[]).is_empty());
+    }
+
+    /// Of strands that the layer doesn't draw on it is as if they weren't there.
+    #[test]
+    fn a_strip_is_all_on_what_is_drawn() {
+        let all = cap(24);
+        let is_drawn = |strand: u32| !(3..9).contains(&strand);
+        let own: Vec<usize> = (0..24).filter(|i| is_drawn(*i as u32)).collect();
+        let some: Vec<Vec<Vec3>> = own.iter().map(|i| all[*i].clone()).collect();
+        for merge in ["0", "0.1"] {
+            let set = [("merge", merge)];
+            let of_some = made_of(&some, |_| true, FROM_ABOVE, &set);
+            let expected: Vec<_> = (of_some.into_iter())
+                .map(|(strand, path)| (own[strand], path))
+                .collect();
+            assert!(expected.len() > 6);
+            assert_eq!(made_of(&all, is_drawn, FROM_ABOVE, &set), expected);
+        }
     }
 
     #[test]

@@ -39,7 +39,7 @@ struct Params {
     /// @unit the layer's unit: 1/300 head height, or pixels @range 0..300 @default 26
     width: f32,
     /// How far above its strands the highlight is laid, so that it lies on clumps and not in them.
-    /// @unit 1 is half the clump's width @constant @range 0..4 @default 1
+    /// @unit 1 is half the radius of the strand's clump at its full size, without the section `clump` @constant @range 0..4 @default 1
     lift: f32,
     /// Width below which a narrowing highlight ends: no hairlines.
     /// @unit the layer's unit: 1/300 head height, or pixels @range 0..100 @default 1

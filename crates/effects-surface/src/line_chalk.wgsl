@@ -24,7 +24,7 @@ struct Params {
     overshoot: f32,
     /// Colour of the line.
     /// @default "4A4038"
-    color: vec4<f32>,
+    color: vec3<f32>,
     /// Its colour where the hand presses least, or none for the same.
     /// @default none
     pale_color: vec4<f32>,
@@ -55,7 +55,7 @@ fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
     let ahead = vec2<f32>(joint.across.y, -joint.across.x);
     let astray = params.wobble * tremble(joint.rest_position / params.wobble_length);
     let offset = joint.unit * (out * ahead + astray * joint.across);
-    let own = params.color.xyz;
+    let own = params.color;
     let color = mix(own, color_or(params.pale_color, own), vec3<f32>(less));
     return Stroke(offset, 0.5 * width * joint.unit * blunt, 0.0, color);
 }

@@ -18,7 +18,7 @@ struct Params {
     wobble_length: f32,
     /// Colour of the line.
     /// @default "2E2522"
-    color: vec4<f32>,
+    color: vec3<f32>,
     /// Its colour where the surface faces the light, or none for the same.
     /// @default none
     light_color: vec4<f32>,
@@ -34,7 +34,7 @@ fn stroke(joint: Inputs, instance: u32, params: Params) -> Stroke {
     let taper = min(params.taper * joint.unit * unit_m, 0.5 * whole);
     let way = saturate(min(joint.from_ends.x, joint.from_ends.y) / max(taper, 1e-9));
     let by_end = select(sqrt(max(1.0 - (1.0 - way) * (1.0 - way), 0.0)), 1.0, params.taper <= 0.0);
-    let own = params.color.xyz;
+    let own = params.color;
     let color = mix(own, color_or(params.light_color, own), vec3<f32>(lit));
     return Stroke(vec2<f32>(0.0), 0.5 * params.width * joint.unit * by_light * by_hand * by_end, 0.0, color);
 }

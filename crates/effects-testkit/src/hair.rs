@@ -87,6 +87,7 @@ fn joint(strand: u32, points: &[Vec3], i: usize) -> Joint {
         path_weight: 0.3 + 0.7 * u,
         from_ends: vec2([i, last - i].map(|links| 0.02 * links as f32)),
         rest_position: vec3((position / HEAD_M).to_array()),
+        rest_forward: vec3(forward.to_array()),
         unit: 0.8,
         normal: vec3(normal.to_array()),
         material_normal: vec3(material_normal.to_array()),

@@ -31,9 +31,19 @@ fn made_at(
     now: &[Vec<Vec3>],
     time: f32,
 ) -> Result<Vec<Path>, String> {
+    made_around(program, rest, (now, Vec3::ZERO), time)
+}
+
+/// The same, where hair as it stands is around a head that has come to `center`.
+fn made_around(
+    program: &dyn LayerProgram,
+    rest: &[Vec<Vec3>],
+    (now, center): (&[Vec<Vec3>], Vec3),
+    time: f32,
+) -> Result<Vec<Path>, String> {
     let around = |degrees: f32| Quat::from_rotation_y(degrees.to_radians());
     let light = around(120.0 * time - 40.0) * Vec3::new(0.0, 0.7, 0.7);
-    let eye = around(90.0 * time) * Vec3::new(0.0, 0.1, 8.0 * HEAD_M);
+    let eye = center + around(90.0 * time) * Vec3::new(0.0, 0.1, 8.0 * HEAD_M);
     let strands: Vec<HairStrand> = (0..)
         .zip(rest.iter().zip(now))
         .map(|(number, (at_rest, particles))| HairStrand {
@@ -42,11 +52,13 @@ fn made_at(
             particles,
             at_rest,
             size: 15.0,
+            is_drawn: true,
         })
         .collect();
     let hair = Hair {
         strands: &strands,
-        head_center: Vec3::ZERO,
+        head_center: center,
+        head_center_at_rest: Vec3::ZERO,
         head_height_m: HEAD_M,
         light: Light::Direction(light.normalize()),
         eye,
@@ -93,7 +105,30 @@ pub(crate) fn check(effect: &dyn AnyEffect) -> Result<(), String> {
     if before != made(&*program, &rest, &rest)? {
         return Err("made again, the paths are others".to_owned());
     }
+    goes_with_the_head(&*program, &rest)?;
     moves_with_the_hair(&*program, &rest)
+}
+
+/// Hair whose head has come some heads away, with eye and light along, has the paths that it had, moved along.
+fn goes_with_the_head(program: &dyn LayerProgram, rest: &[Vec<Vec3>]) -> Result<(), String> {
+    let away = HEAD_M * Vec3::new(3.0, 1.0, -2.0);
+    let moved = |points: &Vec<Vec3>| points.iter().map(|point| *point + away).collect();
+    let now: Vec<Vec<Vec3>> = rest.iter().map(moved).collect();
+    let here = made(program, rest, rest)?;
+    let there = made_around(program, rest, (&now, away), 0.0)?;
+    let back = |(strand, number, points): Path| {
+        let points = points.iter().map(|point| *point - away).collect();
+        (strand, number, points)
+    };
+    let there: Vec<Path> = there.into_iter().map(back).collect();
+    let (distance_m, (strand, number)) = farthest(&here, &there)?;
+    if distance_m > SMALL_M {
+        return Err(format!(
+            "path {number} of strand {strand} is {distance_m} m elsewhere on a head that has moved: what is chosen hangs on the hair and the \
+             head's centre at rest"
+        ));
+    }
+    Ok(())
 }
 
 /// Hair that is blown aside while light and eye go around it: its paths are the same ones all the while, and none jumps. Where one comes far from one moment to the

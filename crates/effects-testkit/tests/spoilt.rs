@@ -423,6 +423,17 @@ fn paths_that_jump_are_found() {
         }
     });
     assert_fails::<Jumping>("none jumps", "path 0 of strand");
+    // As far out as the head has come, though the hair came along.
+    spoil!(Left {
+        const OWN_PATHS: bool = true;
+        fn make_paths(hair: &Hair, paths: &mut MadePaths) {
+            for (strand, own) in hair.strands.iter().enumerate() {
+                let out = own.point_at_rest(0.0) - hair.head_center;
+                paths.push(strand, 0, [own.point(0.0), own.point(1.0) + 0.1 * out]);
+            }
+        }
+    });
+    assert_fails::<Left>("none jumps", "elsewhere on a head that has moved");
     // Steps of 2 cm.
     spoil!(Stepping {
         const OWN_PATHS: bool = true;

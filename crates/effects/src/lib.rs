@@ -26,7 +26,7 @@
 //! assert!(!clump.inputs().has(Input::ArcLength));
 //! ```
 //!
-//! Modules, each made of those before it alone: [`wgsl`] (the prelude), `color`, [`smooth`], `light`, `paths`, `joints` (what a joint
+//! Modules, each made of those before it alone: [`wgsl`] (the prelude), `color`, [`smooth`], `light`, `paths`, `grid` (which strands are neighbours), `joints` (what a joint
 //! offers), `samples` (what one that is painted offers), `lanes`, `texture`, `seed`, `variation`; `param` (tables and values),
 //! [`mod@section`] (typed ones), `program` (what translated code implements), `source` (the same for a
 //! graphics card), `varied` (a program with its values), [`clump`], `brush` (what tools leave of strokes); `effect`, `layer`, `registry`; [`preset`].
@@ -44,6 +44,7 @@ mod brush;
 pub mod clump;
 mod color;
 mod effect;
+mod grid;
 mod joints;
 mod lanes;
 mod layer;
@@ -68,6 +69,7 @@ pub mod wgsl;
 pub use brush::{BrushPlace, BrushPlaces, BrushSection, BrushTexture, Fit, StrandBrush, Tool};
 pub use color::{linear_from_srgb, parse_hex, to_hex};
 pub use effect::{AnyEffect, CLUMP_DISCS, LayerProgram, Reach, StrandJoints, StrokeEffect};
+pub use grid::Grid;
 pub use joints::{Input, InputSet, Joints, LANES, block, block_or};
 pub use layer::{Layer, Units};
 pub use light::Light;

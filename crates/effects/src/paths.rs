@@ -8,8 +8,10 @@ use glam::Vec3;
 pub struct Hair<'a> {
     /// All strands, by rising id.
     pub strands: &'a [HairStrand<'a>],
-    /// Centre of the head, metres.
+    /// Centre of the head as it stands, metres.
     pub head_center: Vec3,
+    /// Centre of the head at rest, metres: the one for [`HairStrand::at_rest`].
+    pub head_center_at_rest: Vec3,
     /// Height of the head, metres.
     pub head_height_m: f32,
     /// The light, as the strands are.
@@ -29,6 +31,8 @@ pub struct HairStrand<'a> {
     pub at_rest: &'a [Vec3],
     /// Its full size, 1/300 of the head's height.
     pub size: f32,
+    /// Whether the layer draws on its zone: paths that are made of others aren't drawn.
+    pub is_drawn: bool,
 }
 
 impl HairStrand<'_> {
@@ -206,6 +210,7 @@ mod tests {
             particles,
             at_rest: &[Vec3::Z],
             size: 1.0,
+            is_drawn: true,
         };
         let bent = strand(&particles);
         for (u, point) in [

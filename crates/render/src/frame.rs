@@ -94,6 +94,9 @@ pub struct Frame<'a> {
     /// Where the hair of each joint of `paths` is at rest, head heights from its head's centre, in the head's axes: x to its left, y up, z to
     /// the face; empty where neither a clump nor a layer reads it.
     pub rest_positions: &'a [Vec3],
+    /// Unit vectors along the hair at each joint of `paths` at rest, in the same axes, or 0 where it is at rest nowhere; empty where neither a clump nor
+    /// a layer reads it.
+    pub rest_forwards: &'a [Vec3],
     /// How far each joint of `paths` is from the first and the last one of its strand, as [`from_ends`] says it; empty where neither a clump nor
     /// a layer reads it.
     pub from_ends: &'a [Vec2],

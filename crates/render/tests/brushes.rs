@@ -124,6 +124,7 @@ fn drawing(layers: &[Layer], order: Order) -> Drawing {
         time_s: 0.0,
         material_normals: &[],
         rest_positions: &[],
+        rest_forwards: &[],
         from_ends: &[],
         path_weights: &[],
         marks: &[],

@@ -109,6 +109,7 @@ fn drawing_of(
         time_s: 0.0,
         material_normals: &[],
         rest_positions: &[],
+        rest_forwards: &[],
         from_ends: &[],
         path_weights: &[],
         marks: &[],

@@ -86,6 +86,7 @@ fn drawing_of(count: usize, list: &str, features: Features) -> Drawing {
         time_s: 0.0,
         material_normals: &[],
         rest_positions: &[],
+        rest_forwards: &[],
         from_ends: &[],
         path_weights: &[],
         marks: &[],

@@ -105,6 +105,7 @@ fn drawing(strand: &[Vec3], camera: &Camera, is_cut: bool, order: Order) -> (Pat
         time_s: 0.0,
         material_normals: &[],
         rest_positions: &[],
+        rest_forwards: &[],
         from_ends: &[],
         path_weights: &[],
         marks: &[],

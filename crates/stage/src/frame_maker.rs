@@ -29,7 +29,7 @@ use rayon::prelude::*;
 use render::{Ball, Frame, MeshLayer, StrandInfo};
 use std::ops::Range;
 use std::sync::Arc;
-use stroke_path::{Camera, PathError, Paths};
+use stroke_path::{Camera, PathError, PathRun, Paths};
 
 /// How many strands a thread makes the paths of at a time, and how many such parts there are before they are put together, which
 /// keeps the parts of dense hair small.
@@ -48,6 +48,8 @@ pub struct FrameMaker {
     normals: Vec<Vec3>,
     /// Where the joints' hair is at rest; empty where nothing reads it.
     rest_positions: Vec<Vec3>,
+    /// How the joints' hair runs at rest; empty where nothing reads it.
+    rest_forwards: Vec<Vec3>,
     /// How far joints are from the ends of their strands; empty where nothing reads it.
     from_ends: Vec<Vec2>,
     path_weights: Vec<f32>,
@@ -132,6 +134,7 @@ impl FrameMaker {
             parts,
             normals,
             rest_positions,
+            rest_forwards,
             from_ends,
             path_weights,
             marks,
@@ -142,6 +145,7 @@ impl FrameMaker {
         strands.clear();
         normals.clear();
         rest_positions.clear();
+        rest_forwards.clear();
         path_weights.clear();
         marks.clear();
         objects.truncate(scene.objects().len());
@@ -152,6 +156,7 @@ impl FrameMaker {
         let reads_rest = looks
             .clone()
             .any(|look| look.reads_rest() || look.lines_read(Input::RestPosition));
+        let reads_rest_forward = looks.clone().any(Look::reads_rest_forward);
         let reads_ends = looks.clone().any(Look::reads_ends);
         let has_marks = looks
             .clone()
@@ -214,6 +219,9 @@ impl FrameMaker {
             }
             if reads_rest {
                 frame.push_rest_positions(paths, rest_positions);
+            }
+            if reads_rest_forward {
+                frame.push_rest_forwards(paths, rest_forwards);
             }
             let own_normals = normals.get_mut(frame.joints.clone());
             object
@@ -287,6 +295,7 @@ impl FrameMaker {
             time_s: motion.time_s(),
             material_normals: &self.normals,
             rest_positions: &self.rest_positions,
+            rest_forwards: &self.rest_forwards,
             from_ends: &self.from_ends,
             path_weights: &self.path_weights,
             marks: &self.marks,
@@ -582,18 +591,41 @@ impl ObjectFrame {
     /// is at the same share of its length.
     fn push_rest_positions(&self, paths: &Paths, positions: &mut Vec<Vec3>) {
         let hair = self.of.hair();
-        let first = paths
-            .runs
-            .partition_point(|run| run.joints.end <= self.joints.start);
-        for run in &paths.runs[first..] {
-            let strand = strand_of(&self.strands, self.made.strands(), run.strand);
-            let points = hair.file.strands.strand(strand);
+        for (run, points) in self.runs_at_rest(paths) {
             let at_rest = |joint: usize| {
                 let point = along(points, paths.u[joint], Vec3::lerp);
                 (point - hair.head.center) / hair.head.height_m
             };
             positions.extend(run.joints.clone().map(at_rest));
         }
+    }
+
+    /// Appends how the hair of the object's joints runs at rest, as unit vectors from each to the next one of its run, where
+    /// [`Self::push_rest_positions`] has them.
+    fn push_rest_forwards(&self, paths: &Paths, forwards: &mut Vec<Vec3>) {
+        for (run, points) in self.runs_at_rest(paths) {
+            let last = run.joints.end - 1;
+            let at_rest = |joint: usize| along(points, paths.u[joint], Vec3::lerp);
+            let forward = |joint: usize| {
+                let from = joint.min(last - 1).max(run.joints.start);
+                (at_rest(last.min(from + 1)) - at_rest(from)).normalize_or_zero()
+            };
+            forwards.extend(run.joints.clone().map(forward));
+        }
+    }
+
+    /// The object's runs, each with its strand's particles at rest.
+    fn runs_at_rest<'a>(
+        &'a self,
+        paths: &'a Paths,
+    ) -> impl Iterator<Item = (&'a PathRun, &'a [Vec3])> {
+        let first = paths
+            .runs
+            .partition_point(|run| run.joints.end <= self.joints.start);
+        paths.runs[first..].iter().map(|run| {
+            let strand = strand_of(&self.strands, self.made.strands(), run.strand);
+            (run, self.of.hair().file.strands.strand(strand))
+        })
     }
 }
 

@@ -198,6 +198,12 @@ impl Look {
         self.layers.iter().any(reads)
     }
 
+    /// Whether anything reads how hair runs at rest.
+    pub(crate) fn reads_rest_forward(&self) -> bool {
+        let reads = |layer: &Layer| layer.program.inputs().has(Input::RestForward);
+        self.layers.iter().any(reads) || self.lines_read(Input::RestForward)
+    }
+
     /// Whether anything that is drawn along lines of meshes reads that.
     pub(crate) fn lines_read(&self, input: Input) -> bool {
         let mut layers = self.lines.iter().flat_map(|set| &set.layers);

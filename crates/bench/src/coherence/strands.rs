@@ -177,6 +177,7 @@ impl Animation for Strands {
             time_s: time as f32,
             material_normals: &[],
             rest_positions: &[],
+            rest_forwards: &[],
             from_ends: &[],
             path_weights: &[],
             marks: &[],

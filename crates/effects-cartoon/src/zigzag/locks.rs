@@ -4,9 +4,8 @@
 //! strip of their links has frayed edges. The source averages particles in groups (Shin, Haller, Mukundan, section 3.4.2), which come and go;
 //! here who stands for whom is chosen by the hair at rest.
 
-use super::grid::Grid;
 use super::{Beside, FAINT, Highlight};
-use effects::Hair;
+use effects::{Grid, Hair};
 
 /// Strands that are linked are at least so far apart where hair is dense, in parts of the distance of `merge`.
 const APART: f32 = 0.3;

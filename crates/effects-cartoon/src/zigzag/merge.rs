@@ -5,9 +5,8 @@
 //! with weights that come and go without a jump. The line lies across the hair: of hair that is swept to one side it runs upright. A strand that can't reach
 //! it, as it is too short, is left out, the more the farther it is from it.
 
-use super::grid::Grid;
 use super::{FAINT, Highlight, PLACES, smooth};
-use effects::HairStrand;
+use effects::{Grid, HairStrand};
 use glam::Vec3;
 
 /// How often highlights move to the middle of those around them: each time they draw nearer to one line.
@@ -188,6 +187,7 @@ mod tests {
             particles,
             at_rest: particles,
             size: 12.0,
+            is_drawn: true,
         };
         (0..)
             .zip(points.iter().map(Vec::as_slice))

@@ -335,6 +335,7 @@ impl Evaluator {
             Input::RestPosition => {
                 of_each(&mut joints.rest_position, frame.rest_positions, world);
             }
+            Input::RestForward => of_each(&mut joints.rest_forward, frame.rest_forwards, world),
             Input::FromEnds => {
                 of_each(&mut joints.from_ends, frame.from_ends, |v: &Vec2| {
                     vec2(v.to_array())

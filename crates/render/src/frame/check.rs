@@ -159,6 +159,16 @@ pub enum FrameError {
     },
     /// The list is shorter or longer than the paths.
     #[error(
+        "there are {forwards} directions at rest for {joints} joints: one is needed for each, or none where nothing reads them"
+    )]
+    RestForwards {
+        /// How many there are.
+        forwards: usize,
+        /// How many joints the paths have.
+        joints: usize,
+    },
+    /// The list is shorter or longer than the paths.
+    #[error(
         "there are {ends} distances from ends for {joints} joints: one pair is needed for each, or none where nothing reads them"
     )]
     FromEnds {
@@ -265,6 +275,11 @@ impl Frame<'_> {
         let reads_rest = |object: &Object| object.inputs().has(Input::RestPosition);
         if positions != joints && (positions > 0 || self.objects.iter().any(reads_rest)) {
             return Err(FrameError::RestPositions { positions, joints });
+        }
+        let forwards = self.rest_forwards.len();
+        let reads_forward = |object: &Object| object.inputs().has(Input::RestForward);
+        if forwards != joints && (forwards > 0 || self.objects.iter().any(reads_forward)) {
+            return Err(FrameError::RestForwards { forwards, joints });
         }
         let ends = self.from_ends.len();
         let reads_ends = |object: &Object| object.inputs().has(Input::FromEnds);

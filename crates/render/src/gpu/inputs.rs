@@ -29,6 +29,7 @@ impl InputSource {
             Input::Across => Pairs(|frame| &frame.paths.across),
             Input::MaterialNormal => Triples(|frame| frame.material_normals),
             Input::RestPosition => Triples(|frame| frame.rest_positions),
+            Input::RestForward => Triples(|frame| frame.rest_forwards),
             Input::FromEnds => Pairs(|frame| frame.from_ends),
             Input::PathWeight => Numbers(|frame| frame.path_weights),
             Input::Strand => Wgsl("gpu_of_strand(joint, 0u)"),

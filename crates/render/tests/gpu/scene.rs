@@ -24,6 +24,7 @@ pub struct Scene {
     pub second: Option<Second>,
     pub material_normals: Vec<Vec3>,
     pub rest_positions: Vec<Vec3>,
+    pub rest_forwards: Vec<Vec3>,
     pub from_ends: Vec<Vec2>,
     pub path_weights: Vec<f32>,
     pub surfaces: Vec<Surface>,
@@ -214,6 +215,11 @@ impl Scene {
                 .map(|f| f.any_orthonormal_vector())
                 .collect(),
             rest_positions: paths.position.iter().map(|p| *p / 0.24).collect(),
+            rest_forwards: paths
+                .forward
+                .iter()
+                .map(|f| Vec3::new(f.y, f.z, f.x))
+                .collect(),
             from_ends: ends_of(&paths),
             path_weights: paths.u.iter().map(|u| 0.2 + u).collect(),
             camera,
@@ -294,6 +300,7 @@ impl Scene {
         self.layer_joints.fill(whole);
         self.material_normals.resize(paths.len(), Vec3::Y);
         self.rest_positions.resize(paths.len(), Vec3::ZERO);
+        self.rest_forwards.resize(paths.len(), Vec3::ZERO);
         self.from_ends = ends_of(&paths);
         self.path_weights.resize(paths.len(), 1.0);
         self.paths = paths;
@@ -351,6 +358,7 @@ impl Scene {
             time_s: 0.3,
             material_normals: &self.material_normals,
             rest_positions: &self.rest_positions,
+            rest_forwards: &self.rest_forwards,
             from_ends: &self.from_ends,
             path_weights: &self.path_weights,
             marks: &[],

@@ -82,10 +82,10 @@ impl ObjectFrame {
                 self.layer_joints.push(start..of_hair.end);
                 continue;
             }
-            let above = strands_above(hair, points);
+            let above = strands_above(hair, points, layer_number);
             let seed = layer_seed(look.seed, &layer.name);
             if self.made.at_rest.len() == making {
-                let at_rest = made_at_rest(hair, layer, seed, look.path())?;
+                let at_rest = made_at_rest(hair, (layer, layer_number), seed, look.path())?;
                 self.made.at_rest.push(at_rest);
             }
             let at_rest = &self.made.at_rest[making];
@@ -93,6 +93,7 @@ impl ObjectFrame {
             let of_effects = effects::Hair {
                 strands: &above,
                 head_center: head.center,
+                head_center_at_rest: hair.head.center,
                 head_height_m: head.height_m,
                 light: self.of.placement().own_light(light),
                 eye: sight.camera().eye(),
@@ -153,13 +154,14 @@ impl ObjectFrame {
     }
 }
 
-/// The strands that layers make paths of: those above the undercoat.
-fn strands_above<'a>(hair: &'a HairModel, points: &'a [Vec3]) -> Vec<HairStrand<'a>> {
+/// The strands that a layer of that number makes paths of: those above the undercoat.
+fn strands_above<'a>(hair: &'a HairModel, points: &'a [Vec3], layer: usize) -> Vec<HairStrand<'a>> {
     let of_strand = |(i, info): (usize, &StrandInfo)| HairStrand {
         id: info.id,
         particles: &points[hair.file.strands.point_range(i)],
         at_rest: hair.file.strands.strand(i),
         size: info.size,
+        is_drawn: !info.is_left_out_by(layer),
     };
     let above = hair.infos.iter().enumerate().skip(hair.undercoat);
     above.map(of_strand).collect()
@@ -168,13 +170,14 @@ fn strands_above<'a>(hair: &'a HairModel, points: &'a [Vec3]) -> Vec<HairStrand<
 /// The paths that a layer makes of hair at rest: as a path keeps its name, they tell which of its joints a picture needs.
 fn made_at_rest(
     hair: &HairModel,
-    layer: &Layer,
+    (layer, number): (&Layer, usize),
     seed: u32,
     path: PathKind,
 ) -> Result<Vec<MadeAtRest>, StageError> {
     let of_effects = effects::Hair {
-        strands: &strands_above(hair, hair.file.strands.points()),
+        strands: &strands_above(hair, hair.file.strands.points(), number),
         head_center: hair.head.center,
+        head_center_at_rest: hair.head.center,
         head_height_m: hair.head.height_m,
         light: Light::Direction(Vec3::Z),
         eye: hair.head.center + 10.0 * hair.head.height_m * Vec3::Z,

@@ -76,14 +76,13 @@ fn what_is_typed_has_the_ends_of_lines_that_the_text_has() {
     harness.run_steps(3);
     harness.get_by_label("Preset text").focus();
     harness.run_steps(2);
-    press(&mut harness, COMMAND, Key::Home);
     harness.get_by_label("Preset text").type_text("// mine");
     harness.run_steps(2);
     press(&mut harness, Modifiers::NONE, Key::Enter);
     harness.get_by_label("Preset text").type_text("// too");
     press(&mut harness, Modifiers::NONE, Key::Enter);
     let written = texts(&harness)[0].clone();
-    assert_eq!(written, format!("// mine\r\n// too\r\n{before}"));
+    assert_eq!(written, format!("{before}// mine\r\n// too\r\n"));
 }
 
 #[test]

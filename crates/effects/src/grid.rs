@@ -3,8 +3,9 @@
 use glam::Vec3;
 use std::ops::RangeInclusive;
 
-/// Points, by cubes of one size.
-pub(super) struct Grid {
+/// Points, by cubes of one size: for effects that ask which strands are neighbours.
+#[derive(Clone, Debug)]
+pub struct Grid {
     /// Edge of a cube, metres.
     edge_m: f32,
     /// Each point's cube and its index, by these.
@@ -15,8 +16,9 @@ pub(super) struct Grid {
 type Cube = [i32; 3];
 
 impl Grid {
-    /// Of points with their indices; `edge_m` is above 0.
-    pub(super) fn new(points: impl IntoIterator<Item = (usize, Vec3)>, edge_m: f32) -> Self {
+    /// Of points (m) with their indices; `edge_m` is above 0.
+    #[must_use]
+    pub fn new(points: impl IntoIterator<Item = (usize, Vec3)>, edge_m: f32) -> Self {
         let mut grid = Self {
             edge_m,
             points: Vec::new(),
@@ -33,38 +35,46 @@ impl Grid {
     }
 
     /// The points of the cube of `point` and of those around it: all that lie no farther than an edge, and some more. In the same order in each run.
-    pub(super) fn around(&self, point: Vec3) -> impl Iterator<Item = usize> {
+    pub fn around(&self, point: Vec3) -> impl Iterator<Item = usize> {
         let center = self.cube_of(point);
         (0..=1).flat_map(move |ring| self.in_ring(center, ring))
     }
 
-    /// The index of least `distance`, and of these the least, of points that have one; a distance is at least as large as how far the point is from
-    /// `point`.
-    pub(super) fn nearest(
+    /// The indices of the `number` least distances, the least first, and of equal ones by their indices; of fewer where fewer points have one. A `distance` (m) is at
+    /// least as large as how far the point is from `point`.
+    pub fn nearest(
         &self,
         point: Vec3,
+        number: usize,
         distance: impl Fn(usize) -> Option<f32>,
-    ) -> Option<usize> {
+    ) -> Vec<usize> {
         let center = self.cube_of(point);
-        let nearer = |best: Option<(f32, usize)>, index: usize| match distance(index) {
-            Some(own) if best.is_none_or(|found| (own, index) < found) => Some((own, index)),
-            _ => best,
+        let mut best: Vec<(f32, usize)> = Vec::new();
+        let take = |best: &mut Vec<(f32, usize)>, index: usize| {
+            let Some(own) = distance(index) else { return };
+            let by_distance =
+                |other: &(f32, usize)| other.0.total_cmp(&own).then(other.1.cmp(&index)).is_lt();
+            let place = best.partition_point(by_distance);
+            if place < number {
+                best.truncate(number - 1);
+                best.insert(place, (own, index));
+            }
         };
-        let mut best = None;
         for ring in 0.. {
             // A ring of more cubes than there are points takes longer than all points, and may lie beyond them.
             if 24 * ring as usize * ring as usize > self.points.len() {
-                let all = self.points.iter().map(|(_, index)| *index);
-                best = all.fold(best, nearer);
+                best.clear();
+                (self.points.iter()).for_each(|(_, index)| take(&mut best, *index));
                 break;
             }
-            best = self.in_ring(center, ring).fold(best, nearer);
+            (self.in_ring(center, ring)).for_each(|index| take(&mut best, index));
             // What lies beyond is at least as far as this.
-            if best.is_some_and(|(found, _)| found < ring as f32 * self.edge_m) {
+            let beyond_m = ring as f32 * self.edge_m;
+            if number == 0 || (best.get(number - 1)).is_some_and(|(last, _)| *last < beyond_m) {
                 break;
             }
         }
-        best.map(|(_, index)| index)
+        best.into_iter().map(|(_, index)| index).collect()
     }
 
     /// The points of the cubes that are so many away from a cube, along the axis on which they are the farthest.
@@ -102,7 +112,7 @@ impl Grid {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use effects::wgsl::random_signed;
+    use crate::wgsl::random_signed;
 
     fn points(count: usize) -> Vec<Vec3> {
         let number = |i: usize, axis: u32| 0.3 * random_signed(7, 3 * i as u32 + axis);
@@ -119,19 +129,25 @@ mod tests {
             for (k, point) in points(450).into_iter().enumerate() {
                 // Every third has no distance.
                 let distance = |i: usize| (i % 3 != k % 3).then(|| 1.5 * all[i].distance(point));
-                let of_all = (0..all.len())
-                    .filter_map(|i| distance(i).map(|own| (own, i)))
-                    .min_by(|a, b| a.0.total_cmp(&b.0));
-                assert_eq!(grid.nearest(point, distance), of_all.map(|(_, i)| i));
+                let of_all = (0..all.len()).filter_map(|i| distance(i).map(|own| (own, i)));
+                let mut of_all: Vec<(f32, usize)> = of_all.collect();
+                of_all.sort_by(|a, b| a.0.total_cmp(&b.0));
+                for number in [0, 1, 5, 300] {
+                    let first = of_all.iter().take(number).map(|(_, i)| *i);
+                    assert_eq!(
+                        grid.nearest(point, number, distance),
+                        first.collect::<Vec<_>>()
+                    );
+                }
             }
         }
         // Too far apart for any number of cubes.
         let far = [Vec3::ZERO, Vec3::splat(3e9), Vec3::splat(-1e30)];
         let grid = Grid::new(far.into_iter().enumerate(), 1e-3);
         let others = |i: usize| (i != 1).then(|| far[i].distance(far[1]));
-        assert_eq!(grid.nearest(far[1], others), Some(0));
+        assert_eq!(grid.nearest(far[1], 1, others), [0]);
         let none = Grid::new([], 0.1);
-        assert_eq!(none.nearest(Vec3::ZERO, |_| Some(0.0)), None);
+        assert!(none.nearest(Vec3::ZERO, 1, |_| Some(0.0)).is_empty());
     }
 
     #[test]
