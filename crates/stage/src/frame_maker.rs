@@ -254,6 +254,9 @@ impl FrameMaker {
             let sight = Sight::new(&own_camera, object, section.detail, shows_all);
             objects[index].lines.push(object, &sight, &mut lists)?;
         }
+        if reads_rest_forward {
+            rest_forwards.resize(paths.len(), Vec3::ZERO);
+        }
         if reads_weights {
             path_weights.resize(paths.len(), 1.0);
         }
