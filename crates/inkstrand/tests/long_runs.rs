@@ -23,8 +23,19 @@ fn folder(size: &str) -> TempDir {
     folder
 }
 
+/// The program, with signals as they are at first, also where tests run under `nohup` or behind a script's `&`.
+fn inkstrand() -> Command {
+    let program = env!("CARGO_BIN_EXE_inkstrand");
+    if cfg!(not(target_os = "linux")) {
+        return Command::new(program);
+    }
+    let mut command = Command::new("env");
+    command.args(["--default-signal=INT,TERM,HUP", program]);
+    command
+}
+
 fn start(folder: &Path, frames: &str) -> Child {
-    Command::new(env!("CARGO_BIN_EXE_inkstrand"))
+    inkstrand()
         .current_dir(folder)
         .args(["render", "small.ron", "--frames", frames, "-o", "a_#.png"])
         .args(["--stats", "stats.jsonl", "--threads", "1"])
@@ -50,7 +61,7 @@ fn wait_for(child: &mut Child, what: impl Fn() -> bool) {
 
 #[test]
 fn an_interrupt_leaves_no_half_file() {
-    for (round, signal) in ["INT", "INT", "INT", "INT", "INT", "INT", "TERM"]
+    for (round, signal) in ["INT", "INT", "INT", "INT", "INT", "HUP", "TERM"]
         .iter()
         .enumerate()
     {
@@ -128,7 +139,7 @@ fn an_interrupt_is_heard_before_the_first_frame() {
         &["render", "small.ron", "-o", "a.png"][..],
         &["simulate", "small.ron", "-o", "a.strands.ron"],
     ] {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_inkstrand"))
+        let mut child = inkstrand()
             .current_dir(path)
             .args(arguments)
             .stderr(Stdio::piped())
@@ -149,6 +160,26 @@ fn an_interrupt_is_heard_before_the_first_frame() {
         assert!(sent.elapsed() < Duration::from_secs(5));
         assert_eq!(names(path).len(), 2, "{:?}", names(path));
     }
+}
+
+/// As after a logout under `nohup`.
+#[test]
+fn a_hangup_that_is_to_be_ignored_ends_nothing() {
+    let folder = folder("(40, 30)");
+    let path = folder.path();
+    let ignoring = "trap '' HUP; exec \"$0\" render small.ron --frames 0-60 -o a_#.png";
+    let mut child = Command::new("sh")
+        .current_dir(path)
+        .args(["-c", ignoring, env!("CARGO_BIN_EXE_inkstrand")])
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    wait_for(&mut child, || path.join("a_1.png").exists());
+    let id = child.id().to_string();
+    let sent = Command::new("kill").args(["-HUP", &id]).status();
+    assert!(sent.unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+    assert!(path.join("a_60.png").exists());
 }
 
 #[test]
