@@ -409,5 +409,9 @@ mod tests {
             let told = told(name).unwrap();
             assert!(told.ends_with(end), "{told}");
         }
+        if cfg!(unix) {
+            let told = no_file(Path::new("/dev/null"), "").unwrap();
+            assert_eq!(told, "`/dev/null` is a pipe or a device, not a file");
+        }
     }
 }
