@@ -47,5 +47,5 @@ pub use mesh_io::{
 };
 pub use nearest::Nearest;
 pub use whole_file::{
-    NoParts, WholeFile, folder_of, named, remove_parts, try_to_write, write_whole,
+    NoParts, WholeFile, end_of_links, folder_of, named, remove_parts, try_to_write, write_whole,
 };

@@ -48,27 +48,15 @@ pub struct WholeFile {
 }
 
 impl WholeFile {
-    /// A file that will be at `path`, or where a link there points, with the permissions of the one that is there. What is
-    /// there but no file (a pipe, a device) is written to as it is.
+    /// A file that will be at `path`, or where a link there points, with the permissions of the one that is there, which must be
+    /// one that may be written to. What is there but no file (a pipe, a device) is written to as it is.
     ///
     /// # Errors
     ///
     /// When nothing can be written there. Like all errors of a whole file it begins with the file's name.
     pub fn create(path: &Path) -> io::Result<Self> {
-        let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-        let made = match fs::metadata(&path) {
-            Ok(there) if there.is_dir() => Err(ErrorKind::IsADirectory.into()),
-            Ok(there) if !there.is_file() => File::options()
-                .write(true)
-                .open(&path)
-                .map(|file| (None, file)),
-            there => parts().create(folder_of(&path)).map(|(part, file)| {
-                // Before there is anything to read in it. Not all file systems have permissions.
-                let _ = there.map(|there| file.set_permissions(there.permissions()));
-                (Some(part), file)
-            }),
-        };
-        let (part, file) = made.map_err(|e| named(&path, &e))?;
+        let path = end_of_links(path);
+        let (part, file) = begin(&path).map_err(|e| named(&path, &e))?;
         Ok(Self {
             path,
             part,
@@ -133,6 +121,28 @@ impl Drop for WholeFile {
         let _ = fs::remove_file(own);
         parts.own.retain(|part| part != own);
     }
+}
+
+/// What is written to at first for a file at `path`, which is no link, and where that is if it is a part.
+fn begin(path: &Path) -> io::Result<(Option<PathBuf>, File)> {
+    let new = || {
+        let (part, file) = parts().create(folder_of(path))?;
+        Ok((Some(part), file))
+    };
+    let there = match fs::metadata(path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => return new(),
+        Ok(there) if there.is_dir() => return Err(ErrorKind::IsADirectory.into()),
+        there => there?,
+    };
+    // Who may write in the folder alone could put another file in the place of one that is protected.
+    let own = File::options().write(true).open(path)?;
+    if !there.is_file() {
+        return Ok((None, own));
+    }
+    let (part, file) = new()?;
+    // Before there is anything to read in it. Not all file systems have permissions.
+    let _ = file.set_permissions(there.permissions());
+    Ok((part, file))
 }
 
 /// A new file in the folder, locked, so that others see that somebody is at it.
@@ -200,6 +210,26 @@ pub fn try_to_write(path: &Path) -> io::Result<()> {
     }
 }
 
+/// How many links are followed, one to the next: as many as by Linux.
+const MOST_LINKS: usize = 40;
+
+/// The file that a path means: where a link there leads, in the end, also to a file that is not there yet. Without a link it is spelled as it
+/// was, unless the file is there.
+#[must_use]
+pub fn end_of_links(path: &Path) -> PathBuf {
+    if let Ok(there) = fs::canonicalize(path) {
+        return there;
+    }
+    let mut path = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        let Ok(next) = fs::read_link(&path) else {
+            break;
+        };
+        path = folder_of(&path).join(next);
+    }
+    path
+}
+
 /// The error, beginning with the file's name.
 #[must_use]
 pub fn named(path: &Path, error: &io::Error) -> io::Error {
@@ -243,6 +273,48 @@ mod tests {
 
         write_whole(Path::new("/dev/null"), b"gone").unwrap();
         assert!(!fs::metadata("/dev/null").unwrap().is_file());
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn what_a_link_points_to_need_not_be_there() {
+        use std::os::unix::fs::symlink;
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        fs::create_dir(path("sub")).unwrap();
+        symlink("sub/first", path("link")).unwrap();
+        symlink("second", path("sub/first")).unwrap();
+        write_whole(&path("link"), b"new").unwrap();
+        assert_eq!(fs::read(path("sub/second")).unwrap(), b"new");
+        for link in ["link", "sub/first"] {
+            assert!(fs::symlink_metadata(path(link)).unwrap().is_symlink());
+        }
+
+        // A link that leads nowhere is no file to replace.
+        for (link, points_to) in [("away", "none/file"), ("round", "round")] {
+            symlink(points_to, path(link)).unwrap();
+            assert!(write_whole(&path(link), b"lost").is_err(), "{link}");
+            assert!(fs::symlink_metadata(path(link)).unwrap().is_symlink());
+        }
+    }
+
+    #[test]
+    fn a_protected_file_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.txt");
+        fs::write(&path, "mine").unwrap();
+        let mut permissions = fs::metadata(&path).unwrap().permissions();
+        permissions.set_readonly(true);
+        fs::set_permissions(&path, permissions).unwrap();
+        // Who is root may write everywhere.
+        if File::options().write(true).open(&path).is_ok() {
+            return;
+        }
+        for tried in [try_to_write(&path), write_whole(&path, b"new")] {
+            assert_eq!(tried.unwrap_err().kind(), ErrorKind::PermissionDenied);
+        }
+        assert_eq!(fs::read(&path).unwrap(), b"mine");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 
     #[test]

@@ -69,22 +69,28 @@ Examples:
 New shells complete commands, options and file names.";
 
 const EFFECTS_JSON: &str = "\
---json writes an object {version, sections, effects}; with NAME, that section or effect alone:
+--json writes an object {version, sections, effects, style, motion}, style and motion being lists of
+the parts of these files; with NAME, that section, effect or part alone:
   section    {id, meaning, parameters}; \"preset\" is what stands beside the sections, \"layers\" what
              each layer may say beside its effect's own parameters (in its `params`)
-  effect     {id, meaning, rank, depth_offset, parameters}
-  parameter  {name, meaning, type, default, unit?, min?, max?, choices?}
-Types and their defaults in JSON, and how a preset writes them:
-  number, integer   0.5             0.5
-  true or false     true            true
-  choice            \"linear\"        linear
-  color             \"3FC1C0\"        \"3FC1C0\"
-  color or none     \"none\"          none, or \"3FC1C0\"
-  text              null            \"hair.tfx\"
-  two numbers       [0, 0]          (0, 0)
-  three numbers     [0, 0, 0]       (0, 0, 0)
-  size              [960, 720]      (960, 720)
-A default of null means that there is none, or for a layer that it is the effect's own.";
+  effect     {id, meaning, paints_meshes, draws_lines, rank, depth_offset, parameters}
+  part       {id, meaning, parameters}
+  parameter  {name, meaning, type, default, unit?, min?, max?, varies?, choices?, repeats?}: varies is
+             whether it may vary, repeats whether a picture goes on from its other edge
+Types and their defaults in JSON, and how a preset, style or script writes them:
+  number, integer   0.5                     0.5
+  true or false     true                    true
+  choice            \"linear\"                linear
+  color             \"3FC1C0\"                \"3FC1C0\"
+  color or none     \"none\"                  none, or \"3FC1C0\"
+  texture           \"(steps: [..])\"         (steps: [..]), \"tones.png\", or none
+  text              null                    \"hair.tfx\"
+  two numbers       [0, 0]                  (0, 0)
+  three numbers     [0, 0, 0]               (0, 0, 0)
+  size              [960, 720]              (960, 720)
+  places            null                    [(-40, 50), (40, 50)]
+A default of null means that there is none, or for a layer that it is the effect's own, and for a
+brush the tool's own.";
 
 /// Draws animated hair as comics and cartoons do.
 #[derive(Parser)]
@@ -101,7 +107,7 @@ pub(crate) enum Command {
     Render(Box<RenderOptions>),
     /// Name every mistake in presets and in the files that they name
     Check {
-        /// Presets, .motion.ron, .style.ron, .strands.ron or .tfx files, or folders, whose .ron files are checked
+        /// Presets, .motion.ron, .style.ron, .strands.ron or .tfx files, meshes (.obj, .ply, .gltf, .glb, .vrm), or folders, whose .ron files are checked
         #[arg(required = true, value_name = "FILE")]
         files: Vec<PathBuf>,
     },

@@ -27,13 +27,13 @@ pub fn render_with(
     registry: &Registry,
     watch: &mut (dyn FnMut(Progress) -> bool + Send),
 ) -> Result<String, String> {
-    let words = ["inkstrand".to_owned()];
-    let quiet = ["--quiet".to_owned()];
-    let words = words.iter().chain(arguments).chain(&quiet);
-    let arguments = Arguments::try_parse_from(words).map_err(|error| error.to_string())?;
-    let Command::Render(options) = &arguments.command else {
+    let program = ["inkstrand".to_owned()];
+    let words = program.iter().chain(arguments);
+    let mut arguments = Arguments::try_parse_from(words).map_err(|error| error.to_string())?;
+    let Command::Render(options) = &mut arguments.command else {
         return Err("the arguments are not those of `inkstrand render`".to_owned());
     };
+    options.quiet = true;
     commands::render(options, registry, Some(watch)).map_err(told)
 }
 
@@ -56,5 +56,25 @@ fn told(failure: Failure) -> String {
     match failure {
         Failure::Usage(message) | Failure::Failed(message) => message,
         Failure::Mistakes(mistakes) => mistakes.join("\n"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As far as the preset, which is not there.
+    #[test]
+    fn words_are_those_of_the_command_line() {
+        let registry = crate::builtin_effects();
+        for words in [
+            &["render", "gone.ron"][..],
+            &["render", "gone.ron", "--quiet"],
+            &["render", "-o", "a.png", "--", "gone.ron"],
+        ] {
+            let words: Vec<String> = words.iter().copied().map(String::from).collect();
+            let message = render_with(&words, &registry, &mut |_| true).unwrap_err();
+            assert!(message.contains("there is no `gone.ron`"), "{message}");
+        }
     }
 }

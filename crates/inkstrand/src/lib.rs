@@ -124,12 +124,14 @@ pub fn run(registry: &Registry) -> ExitCode {
 
 /// From now on an interrupt removes what is unfinished and ends the process with 130.
 fn leave_no_parts_when_interrupted() {
-    let set = ctrlc::set_handler(|| {
+    let set = ctrlc::try_set_handler(|| {
         // Held until the end of the process.
         let _no_parts = hair_io::remove_parts();
         std::process::exit(130);
     });
-    // It fails where the program that calls us has a handler of its own, which is then in charge.
+    // It fails, and changes nothing, where one of the signals isn't as a process has them at first: the program that calls us has a handler of
+    // its own, which is then in charge, or who started it has it live on (`nohup`). What is ended nevertheless then leaves a part, which the
+    // next run in its folder removes.
     drop(set);
 }
 

@@ -9,7 +9,7 @@ mod card;
 use crate::Failure;
 use crate::cli::Backend;
 use crate::pass::{Gathered, Pass, PassPicture, Scale};
-use crate::stats::{Bytes, FrameStats, StrandCounts, buffer_bytes, drawing_counts};
+use crate::stats::{Bytes, FrameStats, StrandCounts, buffer_bytes, layer_counts};
 use card::Card;
 use glam::Vec3;
 use render::cpu::{Evaluator, Rasterizer};
@@ -26,6 +26,8 @@ pub(crate) struct Painter {
     may_fall_back: bool,
     cpu: Option<Cpu>,
     is_quiet: bool,
+    /// Whether what each layer draws is counted.
+    counts_layers: bool,
     /// The last picture, and what drew it.
     last: Option<Drawn>,
     /// Pictures before it, whose memory the next one may have when nobody holds them any more.
@@ -48,7 +50,7 @@ struct Cpu {
 
 impl Painter {
     /// A painter for that backend. `auto` takes a graphics card where there is one that can draw, and goes on with the
-    /// CPU where it fails, in the middle of a sequence too.
+    /// CPU where it fails, in the middle of a sequence too. It counts nothing.
     pub(crate) fn new(backend: Backend, samples: u32, is_quiet: bool) -> Result<Self, Failure> {
         let card = match backend {
             Backend::Cpu => None,
@@ -61,6 +63,7 @@ impl Painter {
             may_fall_back: backend == Backend::Auto,
             cpu: None,
             is_quiet,
+            counts_layers: false,
             last: None,
             shown: Vec::new(),
         };
@@ -68,6 +71,11 @@ impl Painter {
             painter.cpu()?;
         }
         Ok(painter)
+    }
+
+    /// From now on what each layer draws is counted.
+    pub(crate) fn count_layers(&mut self) {
+        self.counts_layers = true;
     }
 
     /// Draws the scene at `time`, in seconds. Where nothing changed since the last picture, which must have been of the same scene, it
@@ -148,6 +156,9 @@ impl Painter {
             ],
         };
         let gathered = self.gather(&frame, pass, scale, &mut stats, &mut lap)?;
+        if self.counts_layers {
+            stats.layers = layer_counts(&frame);
+        }
         stats.size = frame.camera.size_px();
         stats.milliseconds.total = started.elapsed().as_secs_f64() * 1e3;
         stats.strands = StrandCounts {
@@ -192,7 +203,6 @@ impl Painter {
         rasterizer.draw_samples(drawing, planes, |planes| gathered.add(planes))?;
         stats.milliseconds.raster = lap.passed();
         stats.backend = "cpu";
-        stats.layers = drawing_counts(drawing);
         stats.bytes = Bytes {
             buffers: buffer_bytes(drawing),
         };
@@ -207,8 +217,21 @@ impl Painter {
     ) -> Result<Picture, Failure> {
         let frame = stage.frame()?;
         stats.milliseconds.paths = lap.passed();
+        let picture = self.draw_frame(&frame, stats, lap)?;
+        if self.counts_layers {
+            stats.layers = layer_counts(&frame);
+        }
+        Ok(picture)
+    }
+
+    fn draw_frame(
+        &mut self,
+        frame: &Frame,
+        stats: &mut FrameStats,
+        lap: &mut Lap,
+    ) -> Result<Picture, Failure> {
         if let Some(card) = &mut self.card {
-            match card.draw(&frame, self.samples, stats, lap) {
+            match card.draw(frame, self.samples, stats, lap) {
                 Ok(picture) => return Ok(picture),
                 Err(error) if self.may_fall_back => {
                     card::tell(self.is_quiet, &error);
@@ -218,12 +241,11 @@ impl Painter {
             }
         }
         let cpu = self.cpu()?;
-        cpu.evaluator.evaluate(&frame, &mut cpu.drawing)?;
+        cpu.evaluator.evaluate(frame, &mut cpu.drawing)?;
         stats.milliseconds.effects = lap.passed();
         let picture = cpu.rasterizer.draw(&cpu.drawing)?;
         stats.milliseconds.raster = lap.passed();
         stats.backend = "cpu";
-        stats.layers = drawing_counts(&cpu.drawing);
         stats.bytes = Bytes {
             buffers: buffer_bytes(&cpu.drawing),
         };

@@ -1,6 +1,7 @@
 //! `render --pass`: what samples tell, as pictures.
 
 use clap::ValueEnum;
+use hair_io::strands_ron::MIRROR;
 use render::{Feature, Features, SamplePlanes};
 use std::io;
 
@@ -157,7 +158,11 @@ impl Gathered {
         for ((pixel, id), object) in self.ids[row].iter_mut().zip(ids).zip(objects) {
             let is_hair = object % 2 == 1;
             if *object != 0 && (is_hair || !self.pass.is_of_hair()) {
-                *pixel = color_of(*id);
+                // Strands have their numbers within an object; pieces, layers and levels in the whole frame.
+                *pixel = match self.pass {
+                    Pass::Strand => color_of(low_id(*id, object / 2)),
+                    _ => color_of(*id),
+                };
             }
         }
     }
@@ -241,6 +246,14 @@ fn bits(value: f32) -> u16 {
     (value.clamp(0.0, 1.0) * 65_535.0 + 0.5) as u16
 }
 
+/// A strand's id in 24 bits: the id of its original where it is a mirror image, with the bit of these at the top, and from there down the number of
+/// its object, the last bit first. So strands share one only where there are millions of them, or thousands in each of hundreds of objects.
+fn low_id(strand: u32, object: u32) -> u32 {
+    let mirrored = (strand & MIRROR) >> 8;
+    let of_object = object.reverse_bits() >> 9;
+    (strand ^ mirrored ^ of_object) & 0xFF_FFFF
+}
+
 /// The colour of an id: another one for each below 2^24, far from its neighbours'.
 fn color_of(id: u32) -> [u8; 4] {
     let low = id & 0xFF_FFFF;
@@ -293,6 +306,17 @@ fn big_endian(numbers: &[u16]) -> Vec<u8> {
 mod tests {
     use super::*;
     use std::collections::HashSet;
+
+    #[test]
+    fn strands_of_all_objects_and_mirror_images_are_told_apart() {
+        let strands = (0..500).flat_map(|id| [id, id | MIRROR]);
+        let low: HashSet<u32> = strands
+            .flat_map(|id| (0..1000).map(move |object| low_id(id, object)))
+            .collect();
+        assert_eq!(low.len(), 1_000_000);
+        // Those of one object are as they are.
+        assert!((0..10_000).all(|id| low_id(id, 0) == id));
+    }
 
     #[test]
     fn ids_have_colors_of_their_own() {

@@ -1,17 +1,15 @@
 //! Files that a command reads and writes, held against each other before any work: none is lost to another.
 
-use hair_io::folder_of;
+use hair_io::{end_of_links, folder_of};
 use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The one path of a file, however it is spelled; also of one that is not there yet.
 pub(crate) fn place(path: &Path) -> PathBuf {
-    if let Ok(place) = fs::canonicalize(path) {
-        return place;
-    }
-    match (fs::canonicalize(folder_of(path)), path.file_name()) {
+    let path = end_of_links(path);
+    match (fs::canonicalize(folder_of(&path)), path.file_name()) {
         (Ok(folder), Some(name)) => folder.join(name),
-        _ => path.to_owned(),
+        _ => path,
     }
 }
 
@@ -52,10 +50,12 @@ mod tests {
         fs::create_dir(folder.join("sub")).unwrap();
         fs::write(folder.join("there"), "").unwrap();
         std::os::unix::fs::symlink(folder.join("there"), folder.join("link")).unwrap();
+        std::os::unix::fs::symlink("sub/../not", folder.join("dangling")).unwrap();
         for (one, other) in [
             ("there", "sub/../there"),
             ("there", "link"),
             ("not", "sub/.././not"),
+            ("not", "dangling"),
         ] {
             assert_eq!(place(&folder.join(one)), place(&folder.join(other)));
         }

@@ -2,7 +2,7 @@
 
 use crate::say;
 use hair_io::{named, try_to_write};
-use render::{Drawing, LayerStrokes};
+use render::{Drawing, Frame};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -53,6 +53,7 @@ pub(crate) struct FrameStats {
     pub samples: u32,
     pub milliseconds: Milliseconds,
     pub strands: StrandCounts,
+    /// Of a painter that counts.
     pub layers: BTreeMap<String, LayerCounts>,
     pub bytes: Bytes,
     /// Whether the picture is the last one, as nothing changed since: nothing was drawn, and no layer has joints.
@@ -92,53 +93,30 @@ pub(crate) struct Bytes {
 }
 
 /// Joints and segments of each layer of a frame; layers of one name together.
-#[cfg(feature = "gpu")]
-pub(crate) fn frame_counts(frame: &render::Frame) -> BTreeMap<String, LayerCounts> {
+pub(crate) fn layer_counts(frame: &Frame) -> BTreeMap<String, LayerCounts> {
     let runs: Vec<&Range<usize>> = frame.paths.runs.iter().map(|run| &run.joints).collect();
-    let layers = frame.objects.iter().flat_map(|object| {
-        let layers = object.layers.iter().zip(object.layer_joints);
-        layers.map(|(layer, joints)| {
-            let instances = layer.program.instances() as usize;
-            (&layer.name, counts(&runs, joints, instances))
-        })
-    });
-    by_name(layers)
+    let mut all: BTreeMap<String, LayerCounts> = BTreeMap::new();
+    for object in &frame.objects {
+        for (layer, joints) in object.layers.iter().zip(object.layer_joints) {
+            let counts = counts(&runs, joints, layer.program.instances() as usize);
+            let sum = all.entry(layer.name.clone()).or_default();
+            sum.joints += counts.joints;
+            sum.segments += counts.segments;
+        }
+    }
+    all
 }
 
-/// Joints and segments of each layer of a drawing; layers of one name together.
-pub(crate) fn drawing_counts(drawing: &Drawing) -> BTreeMap<String, LayerCounts> {
-    let runs: Vec<&Range<usize>> = drawing.runs.iter().map(|run| &run.joints).collect();
-    let of_layer = |layer: &LayerStrokes| counts(&runs, &layer.joints, layer.instances);
-    by_name(
-        drawing
-            .layers
-            .iter()
-            .map(|layer| (&layer.name, of_layer(layer))),
-    )
-}
-
-/// What so many strokes have on those of the runs that are in `joints`.
+/// What so many strokes have on those of the runs that are in `joints`. Runs lie one behind the other.
 fn counts(runs: &[&Range<usize>], joints: &Range<usize>, instances: usize) -> LayerCounts {
-    let drawn = runs
-        .iter()
-        .filter(|run| joints.start <= run.start && run.end <= joints.end);
+    let first = runs.partition_point(|run| run.start < joints.start);
+    let end = runs.partition_point(|run| run.end <= joints.end);
+    let drawn = runs[first..end.max(first)].iter();
     let segments: usize = drawn.map(|run| run.len() - 1).sum();
     LayerCounts {
         joints: joints.len() * instances,
         segments: segments * instances,
     }
-}
-
-fn by_name<'a>(
-    layers: impl Iterator<Item = (&'a String, LayerCounts)>,
-) -> BTreeMap<String, LayerCounts> {
-    let mut all: BTreeMap<String, LayerCounts> = BTreeMap::new();
-    for (name, counts) in layers {
-        let sum = all.entry(name.clone()).or_default();
-        sum.joints += counts.joints;
-        sum.segments += counts.segments;
-    }
-    all
 }
 
 /// Bytes that the drawing's lists hold.
@@ -155,4 +133,29 @@ pub(crate) fn buffer_bytes(drawing: &Drawing) -> usize {
         .sum();
     let clumps = size_of_val(drawing.clump.as_slice()) + size_of_val(drawing.sides.as_slice());
     surfaces + layers + size_of_val(drawing.runs.as_slice()) + clumps
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_whole_runs_are_counted() {
+        let runs = [0..4, 4..5, 5..9, 9..12];
+        let runs: Vec<&Range<usize>> = runs.iter().collect();
+        for (joints, segments) in [
+            (0..12, 3 + 3 + 2),
+            (4..9, 3),
+            (4..5, 0),
+            (0..0, 0),
+            (12..12, 0),
+            (1..9, 3),
+            (6..8, 0),
+            (5..11, 3),
+        ] {
+            let found = counts(&runs, &joints, 2);
+            assert_eq!(found.segments, 2 * segments, "{joints:?}");
+            assert_eq!(found.joints, 2 * joints.len());
+        }
+    }
 }

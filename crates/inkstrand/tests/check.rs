@@ -340,3 +340,44 @@ fn folders_are_checked_whole() {
         .success()
         .stderr("");
 }
+
+#[test]
+#[cfg(unix)]
+fn a_folder_that_cannot_be_read_is_named_and_the_others_are_checked() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let folder = folder();
+    let path = |name: &str| folder.path().join(name);
+    fs::create_dir_all(path("looks/closed")).unwrap();
+    fs::create_dir(path("empty")).unwrap();
+    fs::write(path("looks/a.ron"), "(version: 1, layers: [])").unwrap();
+    fs::write(path("looks/b.ron"), "(version: 1, layers: [])").unwrap();
+    let arguments = ["check", "looks", "empty"];
+    let told = inkstrand(&folder, &arguments).assert().code(1);
+    told.stderr(
+        contains("empty: there is no .ron file in this folder")
+            .and(contains(
+                "2 files, 0 of them with mistakes; mistakes in 1 folder\n",
+            ))
+            .and(contains("inkstrand: 1 mistake\n")),
+    );
+
+    let allow = |mode| {
+        let permissions = fs::Permissions::from_mode(mode);
+        fs::set_permissions(path("looks/closed"), permissions).unwrap();
+    };
+    allow(0o000);
+    // Who is root may read everywhere.
+    let is_closed = fs::read_dir(path("looks/closed")).is_err();
+    if is_closed {
+        fs::write(path("looks/b.ron"), "(").unwrap();
+        let told = inkstrand(&folder, &["check", "looks"]).assert().code(1);
+        told.stderr(
+            contains("looks/closed: ")
+                .and(contains("looks/b.ron:1:"))
+                .and(contains(
+                    "2 files, 1 of them with mistakes; mistakes in 1 folder\n",
+                )),
+        );
+    }
+    allow(0o755);
+}

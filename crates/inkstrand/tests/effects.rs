@@ -10,6 +10,7 @@ use stage::{
     BODIES, BodySection, LineSection, MOTION_PARTS, MeshSection, ObjectSection, PassSection,
     Preset, STYLE_PARTS, Sections,
 };
+use std::collections::BTreeSet;
 
 fn registry() -> Registry {
     let mut registry = Registry::new();
@@ -248,6 +249,55 @@ fn a_part_of_the_schema_is_the_same_part() {
     for part in ["sections", "effects"] {
         for value in all[part].as_array().unwrap() {
             assert_eq!(schema(&[value["id"].as_str().unwrap()]), *value);
+        }
+    }
+}
+
+/// Adds the keys of all objects in a value, and the types of parameters.
+fn collect(value: &Value, keys: &mut BTreeSet<String>, types: &mut BTreeSet<String>) {
+    let Value::Object(fields) = value else {
+        let list = value.as_array().into_iter().flatten();
+        list.for_each(|value| collect(value, keys, types));
+        return;
+    };
+    types.extend(fields.get("type").map(|kind| kind.as_str().unwrap().into()));
+    for (key, value) in fields {
+        keys.insert(key.clone());
+        collect(value, keys, types);
+    }
+}
+
+#[test]
+fn help_says_all_that_there_is_in_json() {
+    let (mut keys, mut types) = (BTreeSet::new(), BTreeSet::new());
+    let schema = schema(&[]);
+    collect(&schema, &mut keys, &mut types);
+    let output = effects(&["--help"]).output().unwrap();
+    let help = String::from_utf8(output.stdout).unwrap();
+
+    let in_braces = help.split(['{', '}']).skip(1).step_by(2);
+    let said = in_braces.flat_map(|names| names.split(','));
+    let said: BTreeSet<String> = said
+        .map(|name| name.trim().trim_end_matches('?').to_owned())
+        .collect();
+    assert_eq!(said, keys);
+
+    let (_, table) = help.split_once("Types and their defaults").unwrap();
+    let columns = table
+        .lines()
+        .map(|line| line.trim().split("  ").next().unwrap());
+    let said: BTreeSet<String> = columns
+        .flat_map(|names| names.split(", "))
+        .map(str::to_owned)
+        .collect();
+    assert!(types.is_subset(&said), "{types:?} in {said:?}");
+
+    // What has no default says so.
+    for group in ["sections", "effects", "style", "motion"] {
+        for owner in schema[group].as_array().unwrap() {
+            for parameter in owner["parameters"].as_array().unwrap() {
+                assert!(parameter.get("default").is_some(), "{parameter}");
+            }
         }
     }
 }

@@ -23,8 +23,30 @@ fn folder(size: &str) -> TempDir {
     folder
 }
 
+/// Whether a signal that these tests send is ignored by them, as under `nohup` or behind a script's `&`, and so by what they start.
+fn are_signals_ignored() -> bool {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let ignored = status
+        .lines()
+        .find_map(|line| line.strip_prefix("SigIgn:\t"));
+    let ignored = ignored.and_then(|bits| u64::from_str_radix(bits, 16).ok());
+    let [hup, int, term] = [1, 2, 15].map(|signal| 1 << (signal - 1));
+    ignored.unwrap_or(0) & (hup | int | term) != 0
+}
+
+/// The program, with signals as they are at first.
+fn inkstrand() -> Command {
+    let program = env!("CARGO_BIN_EXE_inkstrand");
+    if !are_signals_ignored() {
+        return Command::new(program);
+    }
+    let mut command = Command::new("env");
+    command.args(["--default-signal=INT,TERM,HUP", program]);
+    command
+}
+
 fn start(folder: &Path, frames: &str) -> Child {
-    Command::new(env!("CARGO_BIN_EXE_inkstrand"))
+    inkstrand()
         .current_dir(folder)
         .args(["render", "small.ron", "--frames", frames, "-o", "a_#.png"])
         .args(["--stats", "stats.jsonl", "--threads", "1"])
@@ -50,7 +72,7 @@ fn wait_for(child: &mut Child, what: impl Fn() -> bool) {
 
 #[test]
 fn an_interrupt_leaves_no_half_file() {
-    for (round, signal) in ["INT", "INT", "INT", "INT", "INT", "INT", "TERM"]
+    for (round, signal) in ["INT", "INT", "INT", "INT", "INT", "HUP", "TERM"]
         .iter()
         .enumerate()
     {
@@ -128,7 +150,7 @@ fn an_interrupt_is_heard_before_the_first_frame() {
         &["render", "small.ron", "-o", "a.png"][..],
         &["simulate", "small.ron", "-o", "a.strands.ron"],
     ] {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_inkstrand"))
+        let mut child = inkstrand()
             .current_dir(path)
             .args(arguments)
             .stderr(Stdio::piped())
@@ -149,6 +171,26 @@ fn an_interrupt_is_heard_before_the_first_frame() {
         assert!(sent.elapsed() < Duration::from_secs(5));
         assert_eq!(names(path).len(), 2, "{:?}", names(path));
     }
+}
+
+/// As after a logout under `nohup`.
+#[test]
+fn a_hangup_that_is_to_be_ignored_ends_nothing() {
+    let folder = folder("(40, 30)");
+    let path = folder.path();
+    let ignoring = "trap '' HUP; exec \"$0\" render small.ron --frames 0-400 -o a_#.png";
+    let mut child = Command::new("sh")
+        .current_dir(path)
+        .args(["-c", ignoring, env!("CARGO_BIN_EXE_inkstrand")])
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    wait_for(&mut child, || path.join("a_1.png").exists());
+    let id = child.id().to_string();
+    let sent = Command::new("kill").args(["-HUP", &id]).status();
+    assert!(sent.unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(0));
+    assert!(path.join("a_400.png").exists());
 }
 
 #[test]

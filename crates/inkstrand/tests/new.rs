@@ -114,6 +114,12 @@ fn names_that_are_no_presets() {
             .code(2)
             .stderr(contains(".ron"));
     }
+    #[cfg(unix)]
+    for name in ["a\nb.ron", "a\tb.ron", "\u{1b}[2J.ron"] {
+        inkstrand(folder.path(), &["new", name])
+            .code(2)
+            .stderr(contains("control characters"));
+    }
     inkstrand(folder.path(), &["new", "no/such/look.ron"])
         .code(1)
         .stderr(contains("no/such/look.style.ron"));

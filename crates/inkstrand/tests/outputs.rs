@@ -229,6 +229,43 @@ fn two_files_of_one_path_are_refused() {
     inkstrand(&folder, &line).assert().success();
 }
 
+#[test]
+#[cfg(unix)]
+fn a_picture_goes_where_a_link_points() {
+    let folder = folder();
+    let path = |name: &str| folder.path().join(name);
+    fs::create_dir(path("sub")).unwrap();
+    std::os::unix::fs::symlink("sub/real.png", path("a.png")).unwrap();
+    // What is to be there is one file, by whichever name.
+    let line = ["render", "small.ron", "-o", "a.png", "--stats"];
+    inkstrand(&folder, &[&line[..], &["sub/real.png"]].concat())
+        .assert()
+        .code(2)
+        .stderr(contains("is a picture of -o"));
+    inkstrand(&folder, &line[..4]).assert().success();
+    assert!(fs::symlink_metadata(path("a.png")).unwrap().is_symlink());
+    assert!(path("sub/real.png").is_file());
+}
+
+#[test]
+fn a_protected_file_is_not_written_over() {
+    let folder = folder();
+    let path = folder.path().join("a.png");
+    fs::write(&path, "mine").unwrap();
+    let mut permissions = fs::metadata(&path).unwrap().permissions();
+    permissions.set_readonly(true);
+    fs::set_permissions(&path, permissions).unwrap();
+    // Who is root may write everywhere.
+    if fs::OpenOptions::new().write(true).open(&path).is_ok() {
+        return;
+    }
+    inkstrand(&folder, &["render", "small.ron", "-o", "a.png"])
+        .assert()
+        .code(1)
+        .stderr(contains("a.png: "));
+    assert_eq!(fs::read(&path).unwrap(), b"mine");
+}
+
 /// Materials, pictures and buffers that meshes name are read, too, whoever names the meshes.
 #[test]
 fn what_meshes_are_read_from_is_not_written_over() {

@@ -68,6 +68,46 @@ fn ids_are_colours_that_do_not_mix() {
     }
 }
 
+/// Ids begin anew in each object, and a mirror image has its original's but for one bit.
+#[test]
+fn each_strand_has_a_colour_of_its_own() {
+    let folder = folder();
+    let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).unwrap();
+    let colors = || {
+        let (pixels, _) = pass(&folder, "strand", &[]);
+        let shown = pixels.into_iter().filter(|pixel| pixel[3] > 0);
+        shown.collect::<BTreeSet<Vec<u16>>>()
+    };
+    let alone = colors();
+    assert_eq!(alone.len(), 2);
+
+    write("one.ron", PRESET);
+    write(
+        "two.ron",
+        "(
+            version: 1,
+            scene: (size: (60, 60), samples: 4),
+            camera: (distance: 12),
+            objects: [(preset: \"one.ron\", at: (-1, 0, 0)), (preset: \"one.ron\", at: (1, 0, 0))],
+        )",
+    );
+    let of_both = colors();
+    assert_eq!(of_both.len(), 4);
+    assert!(
+        of_both.is_superset(&alone),
+        "the first object's are as alone"
+    );
+
+    write("two.ron", PRESET);
+    write(
+        "two.strands.ron",
+        "(version: 1, strands: [
+            (size: 60.0, mirror: true, points: [(-0.1, 0.2, 0.0), (-0.1, 0.0, 0.0), (-0.1, -0.2, 0.0)]),
+        ])",
+    );
+    assert_eq!(colors().len(), 2);
+}
+
 #[test]
 fn numbers_are_in_16_bits() {
     let folder = folder();

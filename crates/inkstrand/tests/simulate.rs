@@ -80,6 +80,17 @@ fn what_is_left_of_a_loop_is_told() {
 }
 
 #[test]
+fn a_bake_that_could_not_be_read_is_refused_before_the_work() {
+    let folder = folder();
+    let line = ["simulate", "-o", "b.strands.ron", "--frames", "0-999999"];
+    inkstrand(&folder, &line).assert().code(1).stderr(
+        contains("`render` reads up to 4 GiB of one: make several, each of a part of --frames")
+            .and(contains("frames of this hair fit")),
+    );
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+#[test]
 fn a_preset_without_hair_has_no_bake() {
     let folder = tempfile::tempdir().unwrap();
     Command::cargo_bin("inkstrand")

@@ -50,6 +50,9 @@ pub fn no_file(path: &Path, hint: &str) -> Option<String> {
     if path.is_dir() {
         return Some(format!("`{shown}` is a folder, not a file"));
     }
+    if path.exists() {
+        return Some(format!("`{shown}` is a pipe or a device, not a file"));
+    }
     let folder = hair_io::folder_of(path);
     let Ok(entries) = std::fs::read_dir(folder) else {
         let folder = folder.display();
@@ -405,6 +408,10 @@ mod tests {
         ] {
             let told = told(name).unwrap();
             assert!(told.ends_with(end), "{told}");
+        }
+        if cfg!(unix) {
+            let told = no_file(Path::new("/dev/null"), "").unwrap();
+            assert_eq!(told, "`/dev/null` is a pipe or a device, not a file");
         }
     }
 }

@@ -184,6 +184,13 @@ impl Scene {
         hair.map(HairModel::strand_count).sum()
     }
 
+    /// The number of points of all strands.
+    #[must_use]
+    pub fn point_count(&self) -> usize {
+        let hair = self.objects.iter().map(Object::hair);
+        hair.map(|hair| hair.file.strands.points().len()).sum()
+    }
+
     /// Where the head is while nothing moves, and how large; of several the mean.
     #[must_use]
     pub fn head(&self) -> Head {

@@ -50,6 +50,12 @@ impl Stage {
         self.scene.strand_count()
     }
 
+    /// The number of points of all strands, as a bake has them in each frame.
+    #[must_use]
+    pub fn point_count(&self) -> usize {
+        self.scene.point_count()
+    }
+
     /// [`FrameMaker::culled`].
     #[must_use]
     pub fn culled(&self) -> usize {

@@ -19,14 +19,13 @@ pub(crate) fn check(paths: &[PathBuf], registry: &Registry) -> Result<(), Failur
     let mut files = Vec::new();
     for path in paths {
         if path.is_dir() {
-            match files_in(path) {
-                Ok(inside) => files.extend(inside),
-                Err(message) => found.push(message),
-            }
+            let inside = files_in(path, &mut found);
+            files.extend(inside);
         } else {
             files.push(path.clone());
         }
     }
+    let wrong_folders = found.len();
 
     let mut bar = Bar::new(false, files.len() as u64, "files", None);
     let mut wrong = 0;
@@ -46,8 +45,14 @@ pub(crate) fn check(paths: &[PathBuf], registry: &Registry) -> Result<(), Failur
 
     let checked = counted(files.len(), "file");
     if !found.is_empty() {
-        if files.len() > 1 {
-            say(format_args!("{checked}, {wrong} of them with mistakes\n"));
+        if files.len() + wrong_folders > 1 {
+            let folders = match wrong_folders {
+                0 => String::new(),
+                _ => format!("; mistakes in {}", counted(wrong_folders, "folder")),
+            };
+            say(format_args!(
+                "{checked}, {wrong} of them with mistakes{folders}\n"
+            ));
         }
         return Err(Failure::Mistakes(found));
     }
@@ -58,35 +63,50 @@ pub(crate) fn check(paths: &[PathBuf], registry: &Registry) -> Result<(), Failur
     Ok(())
 }
 
-/// The .ron files in a folder and in those in it, sorted; hidden ones are left out.
-fn files_in(folder: &Path) -> Result<Vec<PathBuf>, String> {
-    let named = |error: io::Error| format!("{}: {error}", folder.display());
+/// The .ron files in a folder and in those in it, sorted; hidden ones are left out. Folders that cannot be read, or where there is nothing to check, are
+/// added to the mistakes, one each.
+fn files_in(folder: &Path, mistakes: &mut Vec<String>) -> Vec<PathBuf> {
     let mut files = Vec::new();
+    let mut unread = Vec::new();
     let mut folders = vec![folder.to_owned()];
     while let Some(inner) = folders.pop() {
-        for entry in fs::read_dir(inner).map_err(named)? {
-            let entry = entry.map_err(named)?;
-            let (path, kind) = (entry.path(), entry.file_type().map_err(named)?);
-            let name = file_name(&path);
-            if name.starts_with('.') {
-                continue;
-            }
-            // Links to folders may lead around in a circle.
-            if kind.is_dir() {
-                folders.push(path);
-            } else if name.ends_with(".ron") && path.is_file() {
-                files.push(path);
-            }
+        if let Err(error) = look_into(&inner, &mut files, &mut folders) {
+            unread.push(format!("{}: {error}", inner.display()));
         }
     }
-    if files.is_empty() {
-        return Err(format!(
+    if files.is_empty() && unread.is_empty() {
+        mistakes.push(format!(
             "{}: there is no .ron file in this folder",
             folder.display()
         ));
     }
+    unread.sort();
+    mistakes.extend(unread);
     files.sort();
-    Ok(files)
+    files
+}
+
+/// Adds the .ron files and the folders in a folder, but for hidden ones.
+fn look_into(
+    folder: &Path,
+    files: &mut Vec<PathBuf>,
+    folders: &mut Vec<PathBuf>,
+) -> io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let entry = entry?;
+        let (path, kind) = (entry.path(), entry.file_type()?);
+        let name = file_name(&path);
+        if name.starts_with('.') {
+            continue;
+        }
+        // Links to folders may lead around in a circle.
+        if kind.is_dir() {
+            folders.push(path);
+        } else if name.ends_with(".ron") && path.is_file() {
+            files.push(path);
+        }
+    }
+    Ok(())
 }
 
 /// What is wrong with a file of the kind that its name says.

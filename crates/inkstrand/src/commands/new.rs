@@ -69,6 +69,10 @@ fn stem(name: &str) -> Result<&str, String> {
             ));
         }
     }
+    // Its name goes into a comment and a text of the preset.
+    if name.contains(char::is_control) {
+        return Err("a preset's name has no line breaks or other control characters".to_owned());
+    }
     let stem = name.strip_suffix(".ron").filter(|stem| !stem.is_empty());
     stem.ok_or_else(|| "a preset's name ends in .ron".to_owned())
 }

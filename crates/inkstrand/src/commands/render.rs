@@ -88,6 +88,9 @@ fn draw(
     }
     let samples = options.pass.map_or(samples, |pass| pass.samples(samples));
     let mut painter = Painter::new(options.backend, samples, options.quiet)?;
+    if options.stats.is_some() {
+        painter.count_layers();
+    }
 
     let mut bar = Bar::from_first_frame(
         options.quiet,

@@ -50,10 +50,9 @@ pub(super) fn all(registry: &Registry) -> Value {
 
 /// The schema of a part of hair styles or motion scripts.
 pub(super) fn file_part(part: &FilePart) -> Value {
-    let places = part
-        .places
-        .iter()
-        .map(|(name, meaning)| json!({ "name": name, "meaning": meaning, "type": "places" }));
+    let places = part.places.iter().map(|(name, meaning)| {
+        json!({ "name": name, "meaning": meaning, "type": "places", "default": null })
+    });
     json!({
         "id": part.name,
         "meaning": part.doc,

@@ -7,10 +7,13 @@ use crate::cli::SimulateOptions;
 use crate::paths::{file_name, is_same};
 use crate::say::say;
 use effects::Registry;
-use hair_io::WholeFile;
+use hair_io::{MOST_OF_DATA, WholeFile};
 use stage::{Bake, Files, Preset};
 use std::io::Write as _;
 use std::path::Path;
+
+/// About how many bytes a point of a frame takes in a bake.
+const BYTES_OF_POINT: u64 = 37;
 
 pub(crate) fn simulate(options: &SimulateOptions, registry: &Registry) -> Result<(), Failure> {
     let source = Source::read(&options.preset)?;
@@ -37,6 +40,7 @@ pub(crate) fn simulate(options: &SimulateOptions, registry: &Registry) -> Result
             "{preset}: it has no hair to simulate"
         )));
     }
+    check_size(stage.point_count() as u64, frames).map_err(Failure::Failed)?;
     let mut bar = Bar::from_first_frame(
         options.quiet,
         &mut stage,
@@ -52,13 +56,34 @@ pub(crate) fn simulate(options: &SimulateOptions, registry: &Registry) -> Result
         bar.inc()?;
     }
     bar.finish();
-    file.write_all(stage.bake_text(bake)?.as_bytes())?;
+    let text = stage.bake_text(bake)?;
+    check_length(text.len() as u64).map_err(Failure::Failed)?;
+    file.write_all(text.as_bytes())?;
     file.finish()?;
     if !options.quiet {
         say_returns(&stage);
         say(format_args!("wrote {}", options.output.display()));
     }
     Ok(())
+}
+
+/// Refuses, before the work, so many frames of hair of so many points that `render` would not read their bake.
+fn check_size(points: u64, frames: u64) -> Result<(), String> {
+    let frame = points * BYTES_OF_POINT;
+    let fit = MOST_OF_DATA / frame.max(1);
+    check_length(frames.saturating_mul(frame))
+        .map_err(|message| format!("{message}; about {fit} frames of this hair fit"))
+}
+
+/// Refuses a bake of more bytes than `render` reads.
+fn check_length(bytes: u64) -> Result<(), String> {
+    if bytes <= MOST_OF_DATA {
+        return Ok(());
+    }
+    let [found, most] = [bytes, MOST_OF_DATA].map(|bytes| bytes as f64 / f64::from(1 << 30));
+    Err(format!(
+        "this bake would have {found:.1} GiB, and `render` reads up to {most} GiB of one: make several, each of a part of --frames"
+    ))
 }
 
 /// Refuses a name that `render` would not take for strands, a file that is read, and one that is no bake: it may be
@@ -86,4 +111,22 @@ fn check_output(
         )));
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bake_is_as_large_as_what_is_read_of_one() {
+        assert!(check_length(MOST_OF_DATA).is_ok() && check_length(MOST_OF_DATA + 1).is_err());
+        let fit = MOST_OF_DATA / (1000 * BYTES_OF_POINT);
+        assert!(check_size(1000, fit).is_ok());
+        let message = check_size(1000, fit + 1).unwrap_err();
+        assert!(
+            message.contains(&format!("about {fit} frames")),
+            "{message}"
+        );
+        assert!(check_size(u64::from(u32::MAX), 1_000_000).is_err());
+    }
 }

@@ -4,7 +4,7 @@ use super::Lap;
 use crate::Failure;
 use crate::pass::Gathered;
 use crate::say::say;
-use crate::stats::{Bytes, FrameStats, frame_counts};
+use crate::stats::{Bytes, FrameStats};
 use render::gpu::{AdapterKind, GpuError, Offscreen};
 use render::{Frame, Picture, SamplePlanes};
 
@@ -57,7 +57,7 @@ impl Card {
         lap: &mut Lap,
     ) -> Result<Picture, GpuError> {
         let picture = self.offscreen.draw(frame, samples)?;
-        self.note(frame, stats, lap.passed());
+        self.note(stats, lap.passed());
         Ok(picture)
     }
 
@@ -73,19 +73,18 @@ impl Card {
         let add = |planes: &mut SamplePlanes| gathered.add(planes);
         self.offscreen
             .draw_samples(frame, samples, &mut self.planes, add)?;
-        self.note(frame, stats, lap.passed());
+        self.note(stats, lap.passed());
         Ok(())
     }
 
     /// Notes what a frame took, of so many milliseconds.
-    fn note(&self, frame: &Frame, stats: &mut FrameStats, whole: f64) {
+    fn note(&self, stats: &mut FrameStats, whole: f64) {
         let card = self.offscreen.stats();
         let strokes = card.milliseconds.map_or(0.0, |[strokes, ..]| strokes);
         stats.backend = "gpu";
         stats.milliseconds.effects = strokes;
         stats.milliseconds.raster = whole - strokes;
         stats.milliseconds.card = card.milliseconds;
-        stats.layers = frame_counts(frame);
         stats.bytes = Bytes {
             buffers: card.bytes as usize,
         };

@@ -1,4 +1,4 @@
-//! A graphics card that is lost.
+//! What is counted, and a graphics card that is lost.
 
 #![allow(clippy::print_stderr, reason = "what is skipped is said")]
 
@@ -41,6 +41,7 @@ fn on_card(may_fall_back: bool) -> Option<(Painter, impl FnOnce())> {
         may_fall_back,
         cpu: None,
         is_quiet: true,
+        counts_layers: false,
         last: None,
         shown: Vec::new(),
     };
@@ -83,4 +84,20 @@ fn gpu_alone_fails_and_says_what_to_do() {
         message.contains("was lost") && message.contains("--backend cpu"),
         "{message}"
     );
+}
+
+#[test]
+fn layers_are_counted_for_who_asks() {
+    let mut stage = stage();
+    for counts in [false, true] {
+        let mut painter = Painter::new(Backend::Cpu, 1, true).ok().unwrap();
+        if counts {
+            painter.count_layers();
+        }
+        let (_, stats) = painter.paint(&mut stage, 0, 0.0).ok().unwrap();
+        assert_eq!(stats.layers.contains_key("hair.base"), counts);
+        let pass = painter.paint_pass(&mut stage, 0, 0.0, Pass::Strand, 6.0);
+        let (_, stats) = pass.ok().unwrap();
+        assert_eq!(stats.layers.contains_key("hair.base"), counts);
+    }
 }

@@ -230,6 +230,19 @@ fn a_picture_that_set_names_is_told_with_the_option() {
 }
 
 #[test]
+#[cfg(target_os = "linux")]
+fn a_device_that_set_names_is_there_and_no_file() {
+    let folder = folder();
+    let set = "hair.file=/dev/zero";
+    inkstrand(folder.path(), &["render", "small.ron", "--set", set])
+        .assert()
+        .code(1)
+        .stderr(contains(
+            "--set hair.file=/dev/zero: `/dev/zero` is a pipe or a device, not a file",
+        ));
+}
+
+#[test]
 fn scripts_that_a_preset_names_are_checked_too() {
     let folder = folder();
     let broken = "(\n    version: 1,\n    moves: [(move: nodd)],\n)";
