@@ -15,11 +15,12 @@ use bench::BenchError;
 use bench::dynamics::{self, peers::Peers, stored};
 use bench::lines::line_art::LineArt;
 use bench::page::{self, Finished};
+use bench::ratios::{self, Ratio};
 use bench::results::Row;
 use bench::targets::{Target, report};
 use bench::{
-    cartoon, character, coherence, compare, frame, lines, ratios, rest, results, scale, skip,
-    stress, strokes,
+    cartoon, character, coherence, compare, frame, lines, rest, results, scale, skip, stress,
+    strokes,
 };
 use clap::Parser as _;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -122,32 +123,37 @@ fn strokes(options: &RatioOptions) -> Result<Finished, BenchError> {
     };
     let measured = with_progress(|progress| strokes::run(&suite, progress))?;
     println!("{}", results::summary(&measured.rows));
-    println!("{}", report(&measured.targets));
+    println!("{}", report(&targets_of(&measured.ratios)));
     println!("{}", strokes::NOT_MEASURED);
     let files = ["strokes.csv", "strokes-errors.csv", "strokes.svg"];
-    let targets = held_to_stored("strokes", measured.targets, options.store)?;
+    let targets = held_to_stored("strokes", &measured.ratios, options)?;
     Ok(finished("strokes", common, &files, measured.rows, targets))
 }
 
-/// Stores ratios, or adds how they stand to those that are stored.
+/// What ratios are held to by themselves.
+fn targets_of(ratios: &[Ratio]) -> Vec<Target> {
+    ratios.iter().map(|ratio| ratio.target.clone()).collect()
+}
+
+/// Stores ratios, or says how they stand to those that are stored; and all that they are held to.
 fn held_to_stored(
     suite: &str,
-    mut targets: Vec<Target>,
-    store: bool,
+    ratios: &[Ratio],
+    options: &RatioOptions,
 ) -> Result<Vec<Target>, BenchError> {
-    if store {
+    let targets = targets_of(ratios);
+    if options.store {
         let path = root().join(ratios::PATH);
         let text =
             std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
-        let text = ratios::renewed(&text, suite, &targets)?;
+        let text = ratios::renewed(&text, suite, ratios)?;
         results::write(&path, &text).map_err(|error| format!("{}: {error}", path.display()))?;
         println!("stored the ratios of {suite}");
         return Ok(targets);
     }
-    let against = ratios::against(suite, &targets)?;
+    let against = ratios::against(suite, ratios, options.common.quick)?;
     tell_regressions("ratios", &against);
-    targets.extend(against);
-    Ok(targets)
+    Ok([targets, against].concat())
 }
 
 /// Says how many figures are as good as stored, and which are worse.
@@ -384,8 +390,8 @@ fn skip(options: &RatioOptions) -> Result<Finished, BenchError> {
     };
     let measured = with_progress(|progress| skip::run(&suite, progress))?;
     println!("{}", results::summary(&measured.rows));
-    println!("{}", report(&measured.targets));
-    let targets = held_to_stored("skip", measured.targets, options.store)?;
+    println!("{}", report(&targets_of(&measured.ratios)));
+    let targets = held_to_stored("skip", &measured.ratios, options)?;
     Ok(finished(
         "skip",
         common,
