@@ -225,8 +225,11 @@ fn dynamics(options: &DynamicsOptions) -> Result<Finished, BenchError> {
         results::write(&path, &file).map_err(|error| format!("{}: {error}", path.display()))?;
         println!("stored our figures");
     }
-    tell_regressions("figures", &measured.regressions);
-    let targets = [measured.targets, measured.regressions].concat();
+    tell_regressions("figures", &measured.against.targets);
+    for row in &measured.against.not_compared {
+        println!("not compared, as this run has another number of threads: {row}");
+    }
+    let targets = [measured.targets, measured.against.targets].concat();
     let files = ["dynamics.csv", "dynamics.svg"];
     Ok(finished("dynamics", common, &files, measured.rows, targets))
 }
