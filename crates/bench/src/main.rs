@@ -85,7 +85,10 @@ fn all(options: &CardOptions) -> Result<ExitCode, BenchError> {
         scale(options)?,
         cartoon(options)?,
         lines(&LineOptions {
-            common: options.common.clone(),
+            common: Options {
+                threads: None, // it has one, whatever the others have
+                ..options.common.clone()
+            },
             peers: false,
             store: false,
         })?,
@@ -265,11 +268,13 @@ fn coherence(options: &CoherenceOptions) -> Result<Finished, BenchError> {
 
 fn lines(options: &LineOptions) -> Result<Finished, BenchError> {
     let common = &options.common;
+    if common.threads.is_some() {
+        return Err("suite lines has no --threads: lines are found by one".into());
+    }
     let line_art = || LineArt::new(&root(), python());
     let suite = lines::Options {
         out: common.out.clone(),
         quick: common.quick,
-        threads: common.threads(),
         line_art: options.peers.then(line_art).transpose()?,
     };
     let measured = with_progress(|progress| lines::run(&suite, progress))?;
@@ -524,5 +529,15 @@ mod tests {
         assert_eq!(exit_code(&done(&[0.2]), true), ExitCode::SUCCESS);
         assert_eq!(exit_code(&done(&[0.2, 0.3]), true), ExitCode::FAILURE);
         assert_eq!(exit_code(&done(&[0.3]), false), ExitCode::SUCCESS);
+    }
+
+    #[test]
+    fn lines_are_found_by_one_thread_alone() {
+        let options = ["bench", "lines", "--threads", "2"];
+        let Suite::Lines(options) = Arguments::parse_from(options).suite else {
+            panic!("another suite");
+        };
+        let error = lines(&options).err().map(|error| error.to_string());
+        assert!(error.is_some_and(|error| error.contains("no --threads")));
     }
 }
