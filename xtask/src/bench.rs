@@ -38,7 +38,7 @@ pub fn command() -> Command {
                 .value_parser(SUITES)
                 .required(true),
         )
-        .arg(flag("quick").help("Within two minutes on two cores"))
+        .arg(flag("quick").help("Some two minutes a suite on two cores; all runs ten suites"))
         .arg(flag("check").help("Fails if a target is missed"))
         .arg(
             flag("peers")

@@ -3,6 +3,7 @@
 
 use std::fmt::Write as _;
 use std::fs;
+use std::path::Path;
 
 use crate::Outcome;
 use crate::html::{escape, head};
@@ -11,8 +12,16 @@ use crate::picture::Picture;
 use crate::program::{self, Inkstrand, sum_up};
 use crate::work;
 
-/// A cell of every sheet: what it shows, and what `inkstrand render` gets beside the preset.
+/// A cell of every sheet: what it shows, and what `inkstrand render` gets beside the preset. A look that can't have it has
+/// an empty place there.
 struct Cell(&'static str, &'static [&'static str]);
+
+/// What of an argument stands for the look's own hair, the layer that paints it.
+const HAIR: &str = "HAIR";
+/// Effects that paint the hair itself.
+const PAINTS_HAIR: [&str; 2] = ["hair.base", "hair.toon"];
+/// What a look of `objects` says in the presets of its heads alone.
+const OF_ONE_HEAD: [&str; 3] = ["--only=", "--set=", "--motion="];
 
 const TURN: &str = "--motion=presets/motions/head-turn.motion.ron";
 const WALK: &str = "--motion=presets/motions/walk-in-wind.motion.ron";
@@ -23,7 +32,7 @@ const CELLS: &[Cell] = &[
     Cell(
         "its strands",
         &[
-            "--only=hair.base",
+            "--only=HAIR",
             "--set=clump.size=0.1",
             "--set=clump.mix=1",
             "--set=clump.shrink_start=1",
@@ -66,32 +75,28 @@ pub fn run(filter: &str) -> Outcome {
     fs::create_dir_all(&folder)?;
     let program = Inkstrand::build()?;
     let scratch = tempfile::tempdir()?;
-    let jobs: Vec<(&str, usize)> = looks
-        .iter()
-        .flat_map(|look| (0..CELLS.len()).map(|cell| (*look, cell)))
-        .collect();
-    let draw = |&(look, cell): &(&str, usize)| -> Result<Picture, String> {
-        let path = scratch.path().join(format!("{look}-{cell}.png"));
-        let line = line(look, &CELLS[cell]);
-        let drawn = program
-            .render(&line, &path)
-            .and_then(|()| Picture::load(&path));
-        match drawn {
-            Ok(picture) if picture.is_blank() => Err("it is blank".to_owned()),
-            other => other.map_err(|error| error.to_string()),
-        }
+    let mut jobs = Vec::new();
+    for look in &looks {
+        let text = fs::read_to_string(program::root().join(preset(look)))?;
+        jobs.extend(
+            CELLS
+                .iter()
+                .map(|cell| (*look, cell, line(look, &text, cell))),
+        );
+    }
+    let draw = |(look, Cell(what, _), line): &(&str, &Cell, Option<Vec<String>>)| {
+        let path = scratch.path().join(format!("{look}, {what}.png"));
+        line.as_ref().map(|line| picture(&program, line, &path))
     };
     let pictures = work::on_all_cores(&jobs, "pictures", draw);
 
     let mut failures = Vec::new();
     for (look, pictures) in looks.iter().zip(pictures.chunks(CELLS.len())) {
-        for (Cell(what, _), error) in CELLS
-            .iter()
-            .zip(pictures)
-            .filter_map(|(c, p)| Some((c, p.as_ref().err()?)))
-        {
-            println!("  FAILED  {look}, {what}: {error}");
-            failures.push(format!("{look}, {what}"));
+        for (Cell(what, _), picture) in CELLS.iter().zip(pictures) {
+            if let Some(Err(error)) = picture {
+                println!("  FAILED  {look}, {what}: {error}");
+                failures.push(format!("{look}, {what}"));
+            }
         }
         let path = folder.join(format!("{look}.png"));
         sheet(pictures).save(&path)?;
@@ -100,23 +105,69 @@ pub fn run(filter: &str) -> Outcome {
     let index = folder.join("index.html");
     fs::write(&index, page(&looks))?;
     println!("  page: {}", index.display());
-    sum_up(jobs.len(), &failures)
+    sum_up(pictures.iter().flatten().count(), &failures)
 }
 
-/// What `inkstrand render` gets for a cell.
-fn line(look: &str, Cell(_, args): &Cell) -> Vec<String> {
-    let preset = format!("presets/{look}.ron");
-    let common = [format!("--size={WIDTH}x{HEIGHT}"), "--threads=1".to_owned()];
-    let args = args.iter().map(|arg| (*arg).to_owned());
-    [preset].into_iter().chain(common).chain(args).collect()
+/// A look's file.
+fn preset(look: &str) -> String {
+    format!("presets/{look}.ron")
+}
+
+/// Draws a cell, at `path` for the time being.
+fn picture(program: &Inkstrand, line: &[String], path: &Path) -> Result<Picture, String> {
+    let drawn = program.render(line, path);
+    let picture = drawn.and_then(|()| Picture::load(path));
+    match picture {
+        Ok(picture) if picture.is_blank() => Err("it is blank".to_owned()),
+        other => other.map_err(|error| error.to_string()),
+    }
+}
+
+/// What `inkstrand render` gets for a cell of a look whose preset says `text`; nothing where the look can't have the cell.
+fn line(look: &str, text: &str, Cell(_, args): &Cell) -> Option<Vec<String>> {
+    let text = without_comments(text);
+    let is_of_one_head = |arg: &&str| OF_ONE_HEAD.iter().any(|start| arg.starts_with(start));
+    if text.contains("objects:") && args.iter().any(is_of_one_head) {
+        return None;
+    }
+    let mut line = vec![
+        preset(look),
+        format!("--size={WIDTH}x{HEIGHT}"),
+        "--threads=1".to_owned(),
+    ];
+    for arg in *args {
+        line.push(match arg.contains(HAIR) {
+            true => arg.replace(HAIR, hair_layer(&text)?),
+            false => (*arg).to_owned(),
+        });
+    }
+    Some(line)
+}
+
+/// The name of the first layer that paints hair itself: its own, or its effect's.
+fn hair_layer(text: &str) -> Option<&str> {
+    let layers = text.split("effect: \"").skip(1);
+    let mut named = layers.filter_map(|layer| {
+        let (effect, rest) = layer.split_once('"')?;
+        let name = rest.strip_prefix(", name: \"");
+        let name = name.and_then(|name| name.split_once('"'));
+        Some((effect, name.map_or(effect, |(name, _)| name)))
+    });
+    let layer = named.find(|(effect, _)| PAINTS_HAIR.contains(effect));
+    layer.map(|(_, name)| name)
+}
+
+fn without_comments(preset: &str) -> String {
+    let lines = preset.lines().filter_map(|line| line.split("//").next());
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 /// The pictures side by side; a place stays empty where there is none.
-fn sheet(pictures: &[Result<Picture, String>]) -> Picture {
+fn sheet(pictures: &[Option<Result<Picture, String>>]) -> Picture {
     let rows = (pictures.len() as u32).div_ceil(COLUMNS);
     let mut sheet = Picture::blank(COLUMNS * WIDTH, rows * HEIGHT);
     for (index, picture) in (0..).zip(pictures) {
-        if let Ok(picture) = picture {
+        if let Some(Ok(picture)) = picture {
             sheet.paste(picture, (index % COLUMNS * WIDTH, index / COLUMNS * HEIGHT));
         }
     }
@@ -155,7 +206,8 @@ mod tests {
     fn a_sheet_has_a_place_for_every_cell() {
         let mut red = Picture::blank(WIDTH, HEIGHT);
         red.pixels.fill([u16::MAX, 0, 0, u16::MAX]);
-        let sheet = sheet(&[vec![Err("no".to_owned()); 5], vec![Ok(red.clone())]].concat());
+        let none = [vec![Some(Err("no".to_owned())); 4], vec![None]].concat();
+        let sheet = sheet(&[none, vec![Some(Ok(red.clone()))]].concat());
         assert_eq!((sheet.width, sheet.height), (4 * WIDTH, 2 * HEIGHT));
         assert_eq!(sheet.cut((WIDTH, HEIGHT), (WIDTH, HEIGHT)), red);
         assert!(sheet.cut((0, 0), (4 * WIDTH, HEIGHT)).is_blank());
@@ -172,6 +224,33 @@ mod tests {
         for Cell(what, args) in CELLS {
             for file in args.iter().filter_map(|arg| arg.strip_prefix("--motion=")) {
                 assert!(program::root().join(file).is_file(), "{what}: {file}");
+            }
+        }
+    }
+
+    /// No look is asked for a layer that it hasn't, or, where it is of several heads, for what each of them has.
+    #[test]
+    fn looks_are_asked_for_what_they_have() {
+        for look in looks::names().unwrap() {
+            let text = fs::read_to_string(program::root().join(preset(&look))).unwrap();
+            let is_of_objects = text.contains("\n    objects: [");
+            let has_hair = text.contains("\n    hair: (");
+            for cell in CELLS {
+                let Some(line) = line(&look, &text, cell) else {
+                    assert!(is_of_objects || !has_hair, "{look}, {}", cell.0);
+                    continue;
+                };
+                for arg in &line {
+                    let is_of_one_head = OF_ONE_HEAD.iter().any(|start| arg.starts_with(start));
+                    assert!(!is_of_objects || !is_of_one_head, "{look}: {arg}");
+                    if let Some(layer) = arg.strip_prefix("--only=") {
+                        let effect = format!("effect: \"{layer}\"");
+                        let mut unnamed = text.split(&effect).skip(1);
+                        let layers = unnamed.any(|rest| !rest.starts_with(", name"))
+                            || text.contains(&format!("name: \"{layer}\""));
+                        assert!(layers, "{look}: {arg}");
+                    }
+                }
             }
         }
     }

@@ -5,7 +5,7 @@
 //! of the list, which show the engine on `tests/yardsticks`, there is a contact sheet for each effect,
 //! with a cell for each end of each parameter, and a picture of each look of `presets`.
 //!
-//! A graphics card draws the same cases, of the looks those whose samples are painted or have passes but for one, and its pictures must agree with the golden ones but for
+//! A graphics card draws the same cases, of the looks those whose samples are painted or have passes, and its pictures must agree with the golden ones but for
 //! rounding (`agree`), on a sheet in each cell.
 
 mod agree;

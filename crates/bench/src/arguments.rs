@@ -164,7 +164,7 @@ fn hours(text: &str) -> Result<Duration, String> {
 
 #[derive(Clone, clap::Args)]
 pub struct Options {
-    /// Fewer scenes, knobs and rounds: within two minutes on two cores
+    /// Fewer scenes, knobs and rounds: some two minutes a suite on two cores; `all` runs ten suites
     #[arg(long)]
     pub quick: bool,
     /// Exits 1 if a target is missed
@@ -216,6 +216,9 @@ mod tests {
             panic!("another suite");
         };
         assert!(options.common.quick && options.only == "twin-tails-orbit");
+        // As docs/order.md has it.
+        let line = "bench coherence --quick --only dry-brush-wind".split(' ');
+        assert!(Arguments::try_parse_from(line).is_ok());
         // What is stored is measured with care.
         let line = ["bench", "dynamics", "--quick", "--store"];
         assert!(Arguments::try_parse_from(line).is_err());

@@ -26,6 +26,7 @@ use peers::Peers;
 use rayon::ThreadPoolBuilder;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
+use stored::Against;
 
 /// What the user asks for.
 #[derive(Clone, Debug)]
@@ -51,7 +52,7 @@ pub struct Measured {
     /// What our figures are held to.
     pub targets: Vec<Target>,
     /// Our figures against those stored.
-    pub regressions: Vec<Target>,
+    pub against: Against,
     /// What a reader of the numbers must know.
     pub comments: Vec<String>,
 }
@@ -102,7 +103,7 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
 
     let measured = Measured {
         targets: targets::targets(&rows, &slopes, &moving.fallbacks),
-        regressions: stored::against(&rows)?,
+        against: stored::against(&rows, options.quick)?,
         rows,
         comments,
     };
@@ -134,7 +135,7 @@ fn place_of(scene: &str) -> (usize, String) {
     let kinds = [
         "drop-",
         names::CANTILEVER,
-        "motion-",
+        names::MOTION,
         names::FULL,
         names::REST,
         names::SHOWN,

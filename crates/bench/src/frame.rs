@@ -33,7 +33,7 @@ const MORE_SAMPLES: [u32; 2] = [8, 16];
 /// Frames that are drawn before any is counted.
 const WARM_UP: u32 = 3;
 /// The same with a card, whose clock goes up slowly.
-const CARD_WARM_UP: u32 = 60;
+pub(crate) const CARD_WARM_UP: u32 = 60;
 
 /// What the user asks for.
 #[derive(Clone, Debug)]
@@ -218,9 +218,15 @@ pub(crate) const YARDSTICKS: &str = "tests/yardsticks";
 
 /// The presets of a folder, by name.
 pub(crate) fn presets(folder: &Path) -> Result<Vec<PathBuf>, BenchError> {
-    let entries = std::fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
-    let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    let failed = |error| format!("{}: {error}", folder.display());
+    let mut paths = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(failed)? {
+        paths.push(entry.map_err(failed)?.path());
+    }
     paths.retain(|path| path.extension().is_some_and(|ending| ending == "ron"));
+    if paths.is_empty() {
+        return Err(format!("{}: no preset is in it", folder.display()).into());
+    }
     paths.sort();
     Ok(paths)
 }
@@ -387,6 +393,21 @@ mod tests {
 
     fn root() -> PathBuf {
         Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+    }
+
+    #[test]
+    fn presets_are_found_by_name_and_a_folder_without_any_is_an_error() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(presets(folder.path()).is_err());
+        assert!(presets(&folder.path().join("none")).is_err());
+        for name in ["b.ron", "notes.md", "a.ron"] {
+            std::fs::write(folder.path().join(name), "").unwrap();
+        }
+        let found = presets(folder.path()).unwrap();
+        assert_eq!(
+            found,
+            ["a.ron", "b.ron"].map(|name| folder.path().join(name))
+        );
     }
 
     #[test]

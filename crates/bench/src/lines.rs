@@ -35,6 +35,8 @@ const WRONG: f64 = 1e-3;
 const APART_PX: f64 = 3.0;
 /// Of Line Art's time lines and tracking may take this share.
 const OF_LINE_ART: f64 = 0.05;
+/// Lines, images and their errors are found by so many threads, that times can be compared.
+const THREADS: usize = 1;
 /// Seconds that lines and tracking may take, by triangles.
 const SPEEDS: [(u32, f64); 2] = [(10_000, 2e-3), (120_000, 12e-3)];
 
@@ -45,8 +47,6 @@ pub struct Options {
     pub out: PathBuf,
     /// Fewer eyes.
     pub quick: bool,
-    /// Threads, for the comment: lines are found by one.
-    pub threads: usize,
     /// Blender's Line Art, if it is to be asked.
     pub line_art: Option<LineArt>,
 }
@@ -87,12 +87,14 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
     let mut measured = Measured {
         rows: Vec::new(),
         targets: Vec::new(),
-        machine: results::machine(options.threads, &["mesh-lines"]),
+        machine: results::machine(THREADS, &["mesh-lines"]),
     };
+    let alone = rayon::ThreadPoolBuilder::new().num_threads(THREADS).build();
+    let alone = alone.map_err(|error| error.to_string())?;
     for subject in subjects {
         let subject = subject.map_err(fault)?;
         progress.set_message(subject.name.clone());
-        let rows = errors(&subject, eyes).map_err(fault)?;
+        let rows = alone.install(|| errors(&subject, eyes)).map_err(fault)?;
         let usual = rows
             .iter()
             .find(|row| row.method == "exact" && row.knob == USUAL);
@@ -112,8 +114,6 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
         }
         progress.inc(1);
     }
-    let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build();
-    let alone = alone.map_err(|error| error.to_string())?;
     for (triangles, most) in SPEEDS {
         let name = format!("dented-{}k", triangles / 1000);
         progress.set_message(name.clone());

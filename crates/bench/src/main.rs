@@ -15,11 +15,12 @@ use bench::BenchError;
 use bench::dynamics::{self, peers::Peers, stored};
 use bench::lines::line_art::LineArt;
 use bench::page::{self, Finished};
+use bench::ratios::{self, Ratio};
 use bench::results::Row;
 use bench::targets::{Target, report};
 use bench::{
-    cartoon, character, coherence, compare, frame, lines, ratios, rest, results, scale, skip,
-    stress, strokes,
+    cartoon, character, coherence, compare, frame, lines, rest, results, scale, skip, stress,
+    strokes,
 };
 use clap::Parser as _;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -84,7 +85,10 @@ fn all(options: &CardOptions) -> Result<ExitCode, BenchError> {
         scale(options)?,
         cartoon(options)?,
         lines(&LineOptions {
-            common: options.common.clone(),
+            common: Options {
+                threads: None, // it has one, whatever the others have
+                ..options.common.clone()
+            },
             peers: false,
             store: false,
         })?,
@@ -122,32 +126,37 @@ fn strokes(options: &RatioOptions) -> Result<Finished, BenchError> {
     };
     let measured = with_progress(|progress| strokes::run(&suite, progress))?;
     println!("{}", results::summary(&measured.rows));
-    println!("{}", report(&measured.targets));
+    println!("{}", report(&targets_of(&measured.ratios)));
     println!("{}", strokes::NOT_MEASURED);
     let files = ["strokes.csv", "strokes-errors.csv", "strokes.svg"];
-    let targets = held_to_stored("strokes", measured.targets, options.store)?;
+    let targets = held_to_stored("strokes", &measured.ratios, options)?;
     Ok(finished("strokes", common, &files, measured.rows, targets))
 }
 
-/// Stores ratios, or adds how they stand to those that are stored.
+/// What ratios are held to by themselves.
+fn targets_of(ratios: &[Ratio]) -> Vec<Target> {
+    ratios.iter().map(|ratio| ratio.target.clone()).collect()
+}
+
+/// Stores ratios, or says how they stand to those that are stored; and all that they are held to.
 fn held_to_stored(
     suite: &str,
-    mut targets: Vec<Target>,
-    store: bool,
+    ratios: &[Ratio],
+    options: &RatioOptions,
 ) -> Result<Vec<Target>, BenchError> {
-    if store {
+    let targets = targets_of(ratios);
+    if options.store {
         let path = root().join(ratios::PATH);
         let text =
             std::fs::read_to_string(&path).map_err(|e| format!("{}: {e}", path.display()))?;
-        let text = ratios::renewed(&text, suite, &targets)?;
+        let text = ratios::renewed(&text, suite, ratios)?;
         results::write(&path, &text).map_err(|error| format!("{}: {error}", path.display()))?;
         println!("stored the ratios of {suite}");
         return Ok(targets);
     }
-    let against = ratios::against(suite, &targets)?;
+    let against = ratios::against(suite, ratios, options.common.quick)?;
     tell_regressions("ratios", &against);
-    targets.extend(against);
-    Ok(targets)
+    Ok([targets, against].concat())
 }
 
 /// Says how many figures are as good as stored, and which are worse.
@@ -219,8 +228,11 @@ fn dynamics(options: &DynamicsOptions) -> Result<Finished, BenchError> {
         results::write(&path, &file).map_err(|error| format!("{}: {error}", path.display()))?;
         println!("stored our figures");
     }
-    tell_regressions("figures", &measured.regressions);
-    let targets = [measured.targets, measured.regressions].concat();
+    tell_regressions("figures", &measured.against.targets);
+    for row in &measured.against.not_compared {
+        println!("not compared, as this run has another number of threads: {row}");
+    }
+    let targets = [measured.targets, measured.against.targets].concat();
     let files = ["dynamics.csv", "dynamics.svg"];
     Ok(finished("dynamics", common, &files, measured.rows, targets))
 }
@@ -256,11 +268,13 @@ fn coherence(options: &CoherenceOptions) -> Result<Finished, BenchError> {
 
 fn lines(options: &LineOptions) -> Result<Finished, BenchError> {
     let common = &options.common;
+    if common.threads.is_some() {
+        return Err("suite lines has no --threads: lines are found by one".into());
+    }
     let line_art = || LineArt::new(&root(), python());
     let suite = lines::Options {
         out: common.out.clone(),
         quick: common.quick,
-        threads: common.threads(),
         line_art: options.peers.then(line_art).transpose()?,
     };
     let measured = with_progress(|progress| lines::run(&suite, progress))?;
@@ -384,8 +398,8 @@ fn skip(options: &RatioOptions) -> Result<Finished, BenchError> {
     };
     let measured = with_progress(|progress| skip::run(&suite, progress))?;
     println!("{}", results::summary(&measured.rows));
-    println!("{}", report(&measured.targets));
-    let targets = held_to_stored("skip", measured.targets, options.store)?;
+    println!("{}", report(&targets_of(&measured.ratios)));
+    let targets = held_to_stored("skip", &measured.ratios, options)?;
     Ok(finished(
         "skip",
         common,
@@ -515,5 +529,15 @@ mod tests {
         assert_eq!(exit_code(&done(&[0.2]), true), ExitCode::SUCCESS);
         assert_eq!(exit_code(&done(&[0.2, 0.3]), true), ExitCode::FAILURE);
         assert_eq!(exit_code(&done(&[0.3]), false), ExitCode::SUCCESS);
+    }
+
+    #[test]
+    fn lines_are_found_by_one_thread_alone() {
+        let options = ["bench", "lines", "--threads", "2"];
+        let Suite::Lines(options) = Arguments::parse_from(options).suite else {
+            panic!("another suite");
+        };
+        let error = lines(&options).err().map(|error| error.to_string());
+        assert!(error.is_some_and(|error| error.contains("no --threads")));
     }
 }

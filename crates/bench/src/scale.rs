@@ -2,9 +2,10 @@
 
 use crate::BenchError;
 use crate::backends::{
-    Backends, Card, ON_CARD_ARE_THE_LEAST, STAGES, Times, card_stages, cpu_stages, rows,
-    share_that_differs,
+    Backends, CPU_STAGES, Card, ON_CARD_ARE_THE_LEAST, STAGES, Times, card_stages, cpu_stages,
+    rows, share_that_differs,
 };
+use crate::frame::CARD_WARM_UP;
 use crate::results::{self, Row};
 use crate::targets::{Found, Limit, Target};
 use effects::preset::Reader;
@@ -12,6 +13,7 @@ use effects::{Layer, Parameters, Registry, Values, Varied, clump};
 use glam::Vec3;
 use indicatif::ProgressBar;
 use render::{Brush, Frame, Head, Light, NO_COLOR, NO_TAPER, Object, Order, StrandInfo};
+use std::ops::Range;
 use std::path::PathBuf;
 use std::time::Instant;
 use stroke_path::{Camera, OrbitView, PathKind, Paths};
@@ -22,6 +24,8 @@ const COUNTS: [usize; 4] = [72, 1_000, 10_000, 100_000];
 /// How much more than linearly cost may grow, from a count to the next.
 const GROWTH: f64 = 1.25;
 const HEAD_M: f32 = 0.24;
+/// Frames that are drawn before any is counted.
+const WARM_UP: u32 = 1;
 
 const LAYERS: &str = "[
     (effect: \"hair.silhouette\"),
@@ -178,54 +182,110 @@ fn layers() -> Result<Vec<Layer>, BenchError> {
 /// What comes before drawing, on both backends.
 const BEFORE: [&str; 1] = ["paths"];
 
+/// Rows of so many frames of these strands on the CPU, then of as many on the card, where there is one: between pictures of the CPU its clock
+/// would go down.
 fn strands(count: usize, backends: &mut Backends, frames: u32) -> Result<Vec<Row>, BenchError> {
-    let view = OrbitView {
-        target: Vec3::new(0.0, -0.05, 0.0),
-        yaw_degrees: 20.0,
-        pitch_degrees: 5.0,
-        distance_m: 1.4,
-        vertical_fov_degrees: 30.0,
-    };
-    let camera = Camera::orbit(view, [960, 720], 0.01).map_err(|error| error.to_string())?;
-    let (layers, clump) = (
-        layers()?,
-        Varied::new(&Values::defaults(clump::Program::PARAMS)),
-    );
-    let mut hair = MadeHair::new(count);
-    let mut paths = Paths::new();
+    let mut clip = Clip::new(count)?;
     let mut times = vec![Times::default(); BEFORE.len() + STAGES.len()];
+    let (before, drawing) = times.split_at_mut(BEFORE.len());
+    let (on_cpu, on_card) = drawing.split_at_mut(CPU_STAGES);
+    let push = |times: &mut [Times], found: &[f64]| {
+        for (times, seconds) in times.iter_mut().zip(found) {
+            times.push(*seconds);
+        }
+    };
+    for number in 0..WARM_UP + frames {
+        let (frame, of_paths) = clip.next()?;
+        let (_, cpu) = backends.on_cpu(&frame)?;
+        if number >= WARM_UP {
+            push(before, &[of_paths]);
+            push(on_cpu, &cpu_stages(of_paths, cpu));
+        }
+    }
     let mut error = None;
-    for number in 0..frames + 1 {
-        hair.move_to(number as f32 / 60.0);
+    let of_card = backends.card_name().map_or(0, |_| CARD_WARM_UP + frames);
+    for number in 0..of_card {
+        let (frame, of_paths) = clip.next()?;
+        let Some((by_card, card)) = backends.on_card(&frame)? else {
+            break;
+        };
+        if number >= CARD_WARM_UP {
+            push(on_card, &card_stages(of_paths, card));
+        }
+        if number + 1 == of_card {
+            let (picture, _) = backends.on_cpu(&frame)?;
+            error = Some(share_that_differs(&picture, &by_card));
+        }
+    }
+    let stages = BEFORE.into_iter().chain(STAGES).zip(&times);
+    Ok(rows(&format!("{count}x{POINTS}"), count, stages, error))
+}
+
+/// Frames of made hair, 1/60 s apart.
+struct Clip {
+    camera: Camera,
+    layers: Vec<Layer>,
+    clump: Varied<clump::Program>,
+    hair: MadeHair,
+    paths: Paths,
+    layer_joints: Vec<Range<usize>>,
+    number: u32,
+}
+
+impl Clip {
+    fn new(count: usize) -> Result<Self, BenchError> {
+        let view = OrbitView {
+            target: Vec3::new(0.0, -0.05, 0.0),
+            yaw_degrees: 20.0,
+            pitch_degrees: 5.0,
+            distance_m: 1.4,
+            vertical_fov_degrees: 30.0,
+        };
+        let camera = Camera::orbit(view, [960, 720], 0.01).map_err(|error| error.to_string())?;
+        Ok(Self {
+            camera,
+            layers: layers()?,
+            clump: Varied::new(&Values::defaults(clump::Program::PARAMS)),
+            hair: MadeHair::new(count),
+            paths: Paths::new(),
+            layer_joints: Vec::new(),
+            number: 0,
+        })
+    }
+
+    /// The next frame, and the seconds that its paths took.
+    fn next(&mut self) -> Result<(Frame<'_>, f64), BenchError> {
+        let time_s = self.number as f32 / 60.0;
+        self.number += 1;
+        self.hair.move_to(time_s);
         let start = Instant::now();
-        paths.clear();
-        for (i, particles) in hair.particles.chunks_exact(POINTS).enumerate() {
+        self.paths.clear();
+        for (i, particles) in self.hair.particles.chunks_exact(POINTS).enumerate() {
             let kind = PathKind::Linear { subdivision: 1 };
-            paths
-                .push_strand(i, particles, kind, &camera)
-                .map_err(|e| e.to_string())?;
+            let pushed = self.paths.push_strand(i, particles, kind, &self.camera);
+            pushed.map_err(|error| error.to_string())?;
         }
         let of_paths = start.elapsed().as_secs_f64();
-        let layer_joints = vec![0..paths.len(); layers.len()];
+        self.layer_joints = vec![0..self.paths.len(); self.layers.len()];
         let frame = Frame {
-            camera: &camera,
-            paths: &paths,
-            strands: &hair.strands,
+            camera: &self.camera,
+            paths: &self.paths,
+            strands: &self.hair.strands,
             objects: vec![Object {
-                joints: 0..paths.len(),
+                joints: 0..self.paths.len(),
                 head: Head {
                     center: Vec3::ZERO,
                     height_m: HEAD_M,
                 },
                 solid: None,
                 surface_bias_m: 0.0,
-                clump: &clump,
+                clump: &self.clump,
                 seed: 1,
-                layers: &layers,
-                layer_joints: &layer_joints,
+                layers: &self.layers,
+                layer_joints: &self.layer_joints,
             }],
             light: Light::Direction(Vec3::new(0.48, 0.6, 0.64)),
-            time_s: number as f32 / 60.0,
+            time_s,
             material_normals: &[],
             rest_positions: &[],
             rest_forwards: &[],
@@ -243,26 +303,8 @@ fn strands(count: usize, backends: &mut Backends, frames: u32) -> Result<Vec<Row
             roundness: 1.0,
             passes: Vec::new(),
         };
-        let (picture, cpu) = backends.on_cpu(&frame)?;
-        let card = backends.on_card(&frame)?;
-        if number == 0 {
-            continue;
-        }
-        if let Some((by_card, _)) = &card {
-            error = Some(share_that_differs(&picture, by_card));
-        }
-        let mut found = vec![of_paths];
-        found.extend(cpu_stages(of_paths, cpu));
-        found.extend(
-            card.into_iter()
-                .flat_map(|(_, card)| card_stages(of_paths, card)),
-        );
-        for (times, seconds) in times.iter_mut().zip(found) {
-            times.push(seconds);
-        }
+        Ok((frame, of_paths))
     }
-    let stages = BEFORE.into_iter().chain(STAGES).zip(&times);
-    Ok(rows(&format!("{count}x{POINTS}"), count, stages, error))
 }
 
 /// Cost grows linearly or better; 10,000 strands at 30 frames a second on the CPU, 100,000 at 60 on a card.

@@ -3,6 +3,7 @@
 
 use crate::BenchError;
 use crate::frame::{YARDSTICKS, preset, registry};
+use crate::ratios::{COUNTS, Ratio, TIMES};
 use crate::results::{self, Row};
 use crate::targets::{Found, Limit, Target};
 use crate::timing::{Effort, medians};
@@ -42,8 +43,8 @@ pub struct Options {
 pub struct Measured {
     /// Two rows a case: `whole` and `part`.
     pub rows: Vec<Row>,
-    /// What a part may cost of its whole.
-    pub targets: Vec<Target>,
+    /// What a part costs of its whole.
+    pub ratios: Vec<Ratio>,
 }
 
 /// A part beside its whole.
@@ -76,7 +77,7 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
     let pool = pool.map_err(|error| error.to_string())?;
     let mut measured = Measured {
         rows: Vec::new(),
-        targets: Vec::new(),
+        ratios: Vec::new(),
     };
     pool.install(|| -> Result<(), BenchError> {
         for case in &cases {
@@ -285,7 +286,8 @@ struct Drawer {
     rasterizer: Rasterizer,
     drawing: Drawing,
     yaw: f32,
-    discs: usize,
+    /// Those of the first picture: they don't hang on how many a machine has time for.
+    discs: Option<usize>,
 }
 
 impl Drawer {
@@ -298,22 +300,22 @@ impl Drawer {
             evaluator: Evaluator::of_samples(SAMPLES),
             rasterizer: Rasterizer::new(SAMPLES, None).map_err(|error| error.to_string())?,
             drawing: Drawing::default(),
-            discs: 0,
+            discs: None,
         })
     }
 
     fn draw(&mut self) -> Result<(), BenchError> {
-        // To and fro by half a degree, so that no picture is the one before.
-        let turned = self.scene.camera.yaw > self.yaw;
-        self.scene.camera.yaw = if turned { self.yaw } else { self.yaw + 0.5 };
         let frame = self.frames.frame(&self.scene, &self.motion);
         let frame = frame.map_err(|error| error.to_string())?;
         let evaluated = self.evaluator.evaluate(&frame, &mut self.drawing);
         evaluated.map_err(|error| error.to_string())?;
-        self.discs = discs(&self.drawing);
+        self.discs.get_or_insert(discs(&self.drawing));
         let picture = self.rasterizer.draw(&self.drawing);
         let picture = picture.map_err(|error| error.to_string())?;
         self.rasterizer.give_back(picture);
+        // To and fro by half a degree, so that no picture is the one before.
+        let turned = self.scene.camera.yaw > self.yaw;
+        self.scene.camera.yaw = if turned { self.yaw } else { self.yaw + 0.5 };
         Ok(())
     }
 }
@@ -333,20 +335,25 @@ fn measure(
     let mut runs: Vec<_> = drawers.iter_mut().map(|drawer| || drawer.draw()).collect();
     let seconds = medians(&mut runs, effort, || progress.inc(1))?;
     drop(runs);
-    let discs = drawers.map(|drawer| drawer.discs);
+    let discs = drawers.map(|drawer| drawer.discs.unwrap_or_default());
     for ((method, seconds), discs) in ["whole", "part"].into_iter().zip(&seconds).zip(discs) {
         measured.rows.push(row(case.name, method, discs, *seconds));
     }
-    let target = |what: &str, found: f64, most: f64| Target {
-        text: format!("{}: {}, {what}", case.name, case.says),
-        found: Some(Found::Is(found)),
-        limit: Limit::AtMost(most),
+    let ratio = |what: &str, worse: f64, found: f64, most: f64| Ratio {
+        scene: case.name.to_owned(),
+        name: what.to_owned(),
+        worse,
+        target: Target {
+            text: format!("{}: {}, {what}", case.name, case.says),
+            found: Some(Found::Is(found)),
+            limit: Limit::AtMost(most),
+        },
     };
     let share = discs[1] as f64 / discs[0] as f64;
-    measured
-        .targets
-        .push(target("time", seconds[1] / seconds[0], case.time));
-    measured.targets.push(target("discs", share, case.discs));
+    measured.ratios.extend([
+        ratio("time", TIMES, seconds[1] / seconds[0], case.time),
+        ratio("discs", COUNTS, share, case.discs),
+    ]);
     Ok(())
 }
 
@@ -382,10 +389,15 @@ fn unchanged(
     let seconds = medians(&mut runs, effort, || progress.inc(1))?;
     measured.rows.push(row("unchanged", "whole", 0, seconds[0]));
     measured.rows.push(row("unchanged", "part", 0, seconds[1]));
-    measured.targets.push(Target {
-        text: "unchanged: a still camera on a still scene, time".to_owned(),
-        found: Some(Found::Is(seconds[1] / seconds[0])),
-        limit: Limit::AtMost(0.01),
+    measured.ratios.push(Ratio {
+        scene: "unchanged".to_owned(),
+        name: "time".to_owned(),
+        worse: TIMES,
+        target: Target {
+            text: "unchanged: a still camera on a still scene, time".to_owned(),
+            found: Some(Found::Is(seconds[1] / seconds[0])),
+            limit: Limit::AtMost(0.01),
+        },
     });
     Ok(())
 }
@@ -420,5 +432,20 @@ mod tests {
             let share = part as f64 / whole as f64;
             assert!(share <= case.discs, "{}: {share}", case.name);
         }
+    }
+
+    #[test]
+    fn counts_are_those_of_the_first_picture() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+        let case = cases(&root).unwrap().remove(0);
+        let mut drawer = Drawer::new(&case.whole).unwrap();
+        let mut counts = (0..2).map(|_| {
+            drawer.draw().unwrap();
+            (drawer.discs, discs(&drawer.drawing))
+        });
+        let [first, second] = [counts.next(), counts.next()].map(Option::unwrap);
+        assert_eq!(first.0, Some(first.1));
+        // Another picture has other discs.
+        assert!(second.0 == first.0 && second.1 != first.1, "{second:?}");
     }
 }

@@ -10,8 +10,8 @@ pub mod targets;
 
 use crate::BenchError;
 use crate::plot;
+use crate::ratios::Ratio;
 use crate::results::{self, Row};
-use crate::targets::Target;
 use crate::timing::{Effort, medians};
 use contenders::{
     Contender, Library, OnCard, Outlines, PathsAlone, Sweep, TinySkia, Vello, in_order,
@@ -62,7 +62,7 @@ pub struct Measured {
     /// TestDrawing, method, knob and distance from the reference of each picture.
     pub differences: Vec<(String, String, usize, Difference)>,
     /// The ratios of times.
-    pub targets: Vec<Target>,
+    pub ratios: Vec<Ratio>,
     /// What a reader of the numbers must know.
     pub comments: Vec<String>,
 }
@@ -97,7 +97,7 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
     let mut measured = Measured {
         rows: Vec::new(),
         differences: Vec::new(),
-        targets: Vec::new(),
+        ratios: Vec::new(),
         comments: comments(&scenes, options),
     };
     for (scene, mut entries) in scenes.iter().zip(entries_of_scenes) {
@@ -129,7 +129,7 @@ pub fn run(options: &Options, progress: &ProgressBar) -> Result<Measured, BenchE
         }
     }
     let stamps: Vec<_> = scenes.iter().map(|s| (s.name, s.source_stamps)).collect();
-    measured.targets = targets::targets(&measured.rows, &stamps);
+    measured.ratios = targets::ratios(&measured.rows, &stamps);
     write(&measured, &options.out)?;
     Ok(measured)
 }

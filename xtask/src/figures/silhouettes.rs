@@ -1,6 +1,8 @@
 //! Lines around clumps, and what comes before what: Figures 5.5 to 5.7.
 
-use super::measure::{WHITE, count, is, rgb};
+use std::ops::RangeInclusive;
+
+use super::measure::{count, is, rgb};
 use super::{Figure, Finding, Shot, claim};
 use crate::Outcome;
 use crate::picture::Picture;
@@ -151,18 +153,42 @@ fn down_the_middle(picture: &Picture) -> Vec<&'static str> {
 
 fn crosses(pictures: &[Picture]) -> Outcome<Finding> {
     let seen = down_the_middle(&pictures[1]);
-    // Where both clumps are equally deep no line parts them.
-    let lines = &pictures[2];
-    let middle_row = (0..lines.width).map(|x| lines.pixel(x, lines.height / 2));
-    let crossings = middle_row.filter(|p| is(*p, rgb(0))).count();
-    let blank = lines.pixels.iter().all(|p| is(*p, WHITE));
+    let lines = lines_half_way_down(&pictures[2]);
+    let said: Vec<String> = lines.iter().map(|run| format!("{run:?}")).collect();
     claim(
-        seen == ["green", "blue"] && !blank,
+        seen == ["green", "blue"] && are_at_the_outer_sides(&lines, pictures[2].width),
         format!(
-            "down the middle one sees {}; half way down, {crossings} pixels of line are at the two outer sides",
-            seen.join(", then ")
+            "down the middle one sees {}; half way down, lines are in columns {} of {}",
+            seen.join(", then "),
+            said.join(" and "),
+            pictures[2].width
         ),
     )
+}
+
+/// Where the picture's middle row is black: the first and last column of each run of neighbours.
+fn lines_half_way_down(picture: &Picture) -> Vec<RangeInclusive<u32>> {
+    let mut runs: Vec<RangeInclusive<u32>> = Vec::new();
+    for x in 0..picture.width {
+        if !is(picture.pixel(x, picture.height / 2), rgb(0)) {
+            continue;
+        }
+        match runs.last_mut() {
+            Some(run) if run.end() + 1 == x => *run = *run.start()..=x,
+            _ => runs.push(x..=x),
+        }
+    }
+    runs
+}
+
+/// One line to each side and none between: where both clumps are equally deep no line parts them. The middle is that of the
+/// picture, and a tenth of its width to both sides.
+fn are_at_the_outer_sides(lines: &[RangeInclusive<u32>], width: u32) -> bool {
+    let (middle, apart) = (width / 2, width / 10);
+    match lines {
+        [left, right] => left.end() + apart < middle && middle + apart < *right.start(),
+        _ => false,
+    }
 }
 
 fn densities(pictures: &[Picture]) -> Outcome<Finding> {
@@ -177,4 +203,36 @@ fn densities(pictures: &[Picture]) -> Outcome<Finding> {
             lines[0], lines[1], lines[2]
         ),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// White, with lines in these columns.
+    fn lined(columns: &[u32]) -> Picture {
+        let mut picture = Picture::blank(360, 3);
+        picture.pixels.fill([u16::MAX; 4]);
+        for x in columns {
+            picture.pixels[(360 + x) as usize] = [0, 0, 0, u16::MAX];
+        }
+        picture
+    }
+
+    #[test]
+    fn lines_are_one_to_each_side_and_none_between() {
+        for (columns, holds) in [
+            (&[116, 117, 118, 119, 240, 241][..], true),
+            (&[116, 117, 180, 240], false),
+            (&[116, 118, 240], false),
+            (&[116, 160], false),
+            (&[116, 117], false),
+            (&[150, 240], false),
+            (&[], false),
+        ] {
+            let lines = lines_half_way_down(&lined(columns));
+            assert_eq!(are_at_the_outer_sides(&lines, 360), holds, "{lines:?}");
+        }
+        assert_eq!(lines_half_way_down(&lined(&[4, 5, 9])), [4..=5, 9..=9]);
+    }
 }

@@ -294,7 +294,7 @@ pub fn measure(
                 drag: 2.0,
                 ..Rods::level(strands, links, 10.0)
             };
-            let scene = format!("motion-{strands}x{links}");
+            let scene = format!("{}{strands}x{links}", names::MOTION);
             add(&scene, own, Bare::boxed(Own::new(&rods)?));
             let twisting = Rods {
                 curvature: NEARLY_STRAIGHT,

@@ -10,6 +10,8 @@ pub const MASS_SPRING: &str = "mass-spring";
 pub const XPBD_STEPS: &str = "xpbd-steps";
 /// XPBD rods; the knob is sweeps a step.
 pub const XPBD_SWEEPS: &str = "xpbd-sweeps";
+/// Starts the names of scenes of strands on a head that shakes, with nothing around them.
+pub const MOTION: &str = "motion-";
 /// Starts the names of scenes with everything.
 pub const FULL: &str = "full-";
 /// Starts the names of scenes of the same when all has come to rest.

@@ -1,6 +1,6 @@
 //! Our figures as they were, so that worse ones are seen: errors, and times over those of a yardstick.
 
-use super::names::{CANTILEVER, OWN, XPBD_STEPS};
+use super::names::{self, CANTILEVER, OWN, XPBD_STEPS};
 use crate::BenchError;
 use crate::results::{Row, table};
 use crate::targets::{Found, Limit, Target};
@@ -51,53 +51,109 @@ pub fn file(rows: &[Row]) -> Result<String, BenchError> {
     Ok(table(&comments.map(str::to_owned), COLUMNS, lines))
 }
 
-/// A target for each error and time of a run that is stored.
+/// How a run stands to the stored figures.
+pub struct Against {
+    /// A target for each error and time that is stored. One that was not measured is missed but in a quick run, which leaves some out.
+    pub targets: Vec<Target>,
+    /// Rows of other numbers of threads than the run had, in words: they are of another machine, and not compared.
+    pub not_compared: Vec<String>,
+}
+
+/// A run against what is stored.
 ///
 /// # Errors
 ///
 /// When the stored file is broken or the run has no yardstick.
-pub fn against(rows: &[Row]) -> Result<Vec<Target>, BenchError> {
-    compare(rows, STORED)
+pub fn against(rows: &[Row], quick: bool) -> Result<Against, BenchError> {
+    compare(rows, quick, STORED)
 }
 
-fn compare(rows: &[Row], stored: &str) -> Result<Vec<Target>, BenchError> {
-    let yardstick = yardstick(rows).ok_or("there is nothing to measure times by")?;
-    let mut targets = Vec::new();
-    let lines = stored.lines().filter(|line| !line.starts_with('#'));
-    for line in lines.skip(1) {
-        let broken = || format!("broken line of stored figures: {line}");
-        let parts: Vec<&str> = line.split(',').collect();
-        let [scene, method, knob, time, error] = parts[..] else {
-            return Err(broken().into());
-        };
-        let knob: usize = knob.parse().map_err(|_| broken())?;
-        let is_it = |row: &&Row| row.scene == scene && row.method == method && row.knob == knob;
-        let Some(row) = rows.iter().find(is_it) else {
-            continue;
-        };
-        if !time.is_empty() {
-            let time: f64 = time.parse().map_err(|_| broken())?;
-            targets.push(Target {
-                text: format!("{scene}: {method}, {knob}: time over the stored one"),
-                found: Some(Found::Is(row.seconds / yardstick / time)),
-                limit: Limit::AtMost(SLOWER),
-            });
-        }
-        if !error.is_empty() {
-            let error: f64 = error.parse().map_err(|_| broken())?;
-            let apart = if scene.starts_with(CANTILEVER) {
-                0.0
-            } else {
-                REFERENCES
+/// Figures of the stored file, none where a row has no time or no error.
+struct Line<'a> {
+    scene: &'a str,
+    method: &'a str,
+    knob: usize,
+    time: Option<f64>,
+    error: Option<f64>,
+}
+
+fn lines(stored: &str) -> Result<Vec<Line<'_>>, BenchError> {
+    let lines = stored.lines().filter(|line| !line.starts_with('#')).skip(1);
+    lines
+        .map(|line| {
+            let broken = || format!("broken line of stored figures: {line}");
+            let parts: Vec<&str> = line.split(',').collect();
+            let [scene, method, knob, time, error] = parts[..] else {
+                return Err(broken().into());
             };
-            targets.push(Target {
-                text: format!("{scene}: {method}, {knob}: error over the stored one"),
-                found: row.error.map(|now| Found::Is(now / (error + apart))),
-                limit: Limit::AtMost(WORSE),
-            });
+            let figure = |text: &str| match text {
+                "" => Ok(None),
+                text => text.parse().map(Some).map_err(|_| broken()),
+            };
+            Ok(Line {
+                scene,
+                method,
+                knob: knob.parse().map_err(|_| broken())?,
+                time: figure(time)?,
+                error: figure(error)?,
+            })
+        })
+        .collect()
+}
+
+fn compare(rows: &[Row], quick: bool, stored: &str) -> Result<Against, BenchError> {
+    let yardstick = yardstick(rows).ok_or("there is nothing to measure times by")?;
+    let mut against = Against {
+        targets: Vec::new(),
+        not_compared: Vec::new(),
+    };
+    for line in lines(stored)? {
+        let of_method = |row: &&Row| row.scene == line.scene && row.method == line.method;
+        let mut own = rows.iter().filter(of_method);
+        match own.clone().find(|row| row.knob == line.knob) {
+            Some(row) => against.targets.extend(line.targets(Some(row), yardstick)),
+            None if own.next().is_some() && has_threads(line.scene) => {
+                let text = format!("{}: {}, {} threads", line.scene, line.method, line.knob);
+                against.not_compared.push(text);
+            }
+            None if quick => {}
+            None => against.targets.extend(line.targets(None, yardstick)),
         }
     }
-    Ok(targets)
+    Ok(against)
+}
+
+/// True of scenes whose knob is threads.
+fn has_threads(scene: &str) -> bool {
+    let kinds = [names::MOTION, names::FULL, names::REST, names::SHOWN];
+    kinds.iter().any(|kind| scene.starts_with(kind))
+}
+
+impl Line<'_> {
+    /// What its row is held to, which may not have been measured.
+    fn targets(&self, row: Option<&Row>, yardstick: f64) -> Vec<Target> {
+        let target = |figure: &str, found: Option<f64>, worse: f64| Target {
+            text: format!(
+                "{}: {}, {}: {figure} over the stored one",
+                self.scene, self.method, self.knob
+            ),
+            found: found.map(Found::Is),
+            limit: Limit::AtMost(worse),
+        };
+        let time = self.time.map(|time| {
+            let now = row.map(|row| row.seconds / yardstick / time);
+            target("time", now, SLOWER)
+        });
+        let apart = match self.scene.starts_with(CANTILEVER) {
+            true => 0.0,
+            false => REFERENCES,
+        };
+        let error = self.error.map(|error| {
+            let now = row.and_then(|row| row.error);
+            target("error", now.map(|now| now / (error + apart)), WORSE)
+        });
+        time.into_iter().chain(error).collect()
+    }
 }
 
 #[cfg(test)]
@@ -127,7 +183,7 @@ mod tests {
         for row in &mut faster_machine {
             row.seconds *= 0.3;
         }
-        let targets = compare(&faster_machine, &file).unwrap();
+        let targets = compare(&faster_machine, false, &file).unwrap().targets;
         assert_eq!(targets.len(), 4);
         assert!(targets.iter().all(Target::is_met), "{targets:?}");
     }
@@ -140,18 +196,51 @@ mod tests {
             let mut rows = rows();
             rows[place].seconds *= slower;
             rows[place].error = rows[place].error.map(|error| error * worse);
-            let targets = compare(&rows, &file).unwrap();
+            let targets = compare(&rows, false, &file).unwrap().targets;
             let missed = targets.iter().filter(|target| !target.is_met()).count();
             assert_eq!(missed, 1, "{targets:?}");
         }
     }
 
     #[test]
+    fn what_is_stored_and_measured_no_more_is_missed() {
+        let stored = file(&rows()).unwrap();
+        let mut now = rows();
+        now[3].scene = "cantilever-2".to_owned();
+        let against = compare(&now, false, &stored).unwrap();
+        let missed: Vec<&Target> = (against.targets.iter())
+            .filter(|target| !target.is_met())
+            .collect();
+        assert_eq!(missed.len(), 1);
+        assert!(missed[0].found.is_none() && missed[0].text.starts_with("cantilever-1: "));
+        assert!(against.not_compared.is_empty());
+        // A quick run leaves some out.
+        let quick = compare(&now, true, &stored).unwrap();
+        assert!(quick.targets.iter().all(Target::is_met));
+    }
+
+    #[test]
+    fn other_numbers_of_threads_are_not_compared() {
+        let stored = file(&rows()).unwrap();
+        let mut now = rows();
+        now[2].knob = 16;
+        let against = compare(&now, false, &stored).unwrap();
+        assert_eq!(against.not_compared, ["full-72x20: inkstrand, 2 threads"]);
+        assert!(against.targets.iter().all(Target::is_met));
+        // A scene that is gone is another matter, and so is another knob.
+        now.remove(2);
+        now[0].knob = 2;
+        let against = compare(&now, false, &stored).unwrap();
+        let missed = against.targets.iter().filter(|target| !target.is_met());
+        assert_eq!(missed.count(), 3);
+    }
+
+    #[test]
     fn broken_figures_are_refused() {
-        assert!(compare(&rows(), "columns\ndrop-10,inkstrand-20,1").is_err());
-        assert!(compare(&rows(), "columns\na,b,one,1.0,2.0").is_err());
-        assert!(compare(&rows(), "columns\ndrop-10,inkstrand-20,1,soon,2.0").is_err());
-        assert!(compare(&rows()[..1], "columns").is_err());
+        assert!(compare(&rows(), false, "columns\ndrop-10,inkstrand-20,1").is_err());
+        assert!(compare(&rows(), false, "columns\na,b,one,1.0,2.0").is_err());
+        assert!(compare(&rows(), false, "columns\ndrop-10,inkstrand-20,1,soon,2.0").is_err());
+        assert!(compare(&rows()[..1], false, "columns").is_err());
     }
 
     #[test]
@@ -159,6 +248,6 @@ mod tests {
         let lines = STORED.lines().filter(|line| !line.starts_with('#'));
         assert!(lines.clone().count() > 30);
         assert_eq!(lines.clone().next(), Some(COLUMNS));
-        assert!(compare(&rows(), STORED).is_ok());
+        assert!(compare(&rows(), true, STORED).is_ok());
     }
 }

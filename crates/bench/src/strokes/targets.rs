@@ -1,5 +1,6 @@
 //! What the measured times and errors are held to.
 
+use crate::ratios::{ERRORS, Ratio, TIMES};
 use crate::results::Row;
 use crate::targets::{Found, Limit, Point, Target, curve, time_at};
 
@@ -71,9 +72,9 @@ fn limits(scene: &str) -> Limits {
     }
 }
 
-/// All targets of all scenes.
+/// All ratios of all scenes, and what they are held to.
 #[must_use]
-pub fn targets(rows: &[Row], scenes: &[SceneStamps]) -> Vec<Target> {
+pub fn ratios(rows: &[Row], scenes: &[SceneStamps]) -> Vec<Ratio> {
     scenes
         .iter()
         .flat_map(|&(scene, source_stamps)| {
@@ -83,27 +84,33 @@ pub fn targets(rows: &[Row], scenes: &[SceneStamps]) -> Vec<Target> {
         .collect()
 }
 
-fn of_scene(rows: &[&Row], scene: &str, source_stamps: usize) -> Vec<Target> {
+fn of_scene(rows: &[&Row], scene: &str, source_stamps: usize) -> Vec<Ratio> {
     let seconds = |method: &str, knob: usize| {
         let row = rows.iter().find(|r| r.method == method && r.knob == knob);
         row.map(|row| row.seconds)
     };
-    let ratio = |ours: Option<f64>, theirs: Option<f64>| Some(Found::Is(ours? / theirs?));
+    let over = |ours: Option<f64>, theirs: Option<f64>| Some(Found::Is(ours? / theirs?));
     let limits = limits(scene);
-    let target = |text: String, ratio, limit: f64, asked: f64| Target {
-        text: match limit > asked {
-            true => format!("{scene}: {text} ({asked:.3} was asked)"),
-            false => format!("{scene}: {text}"),
+    let ratio = |name: String, text: String, found, limit: f64, asked: f64| Ratio {
+        scene: scene.to_owned(),
+        name,
+        worse: TIMES,
+        target: Target {
+            text: match limit > asked {
+                true => format!("{scene}: {text} ({asked:.3} was asked)"),
+                false => format!("{scene}: {text}"),
+            },
+            found,
+            limit: Limit::AtMost(limit),
         },
-        found: ratio,
-        limit: Limit::AtMost(limit),
     };
 
     let vello = fastest_vello(rows);
     let best = vello.iter().map(|row| row.seconds).reduce(f64::min);
-    let mut targets = vec![target(
+    let mut ratios = vec![ratio(
+        "fastest-vello".to_owned(),
         "sweep at 4 samples / vello_cpu at its fastest".to_owned(),
-        ratio(seconds(SWEEP, 4), best),
+        over(seconds(SWEEP, 4), best),
         limits.vello,
         ASKED.vello,
     )];
@@ -117,34 +124,41 @@ fn of_scene(rows: &[&Row], scene: &str, source_stamps: usize) -> Vec<Target> {
                 "sweep at {MOST_SAMPLES} samples / {}, errors (no more time at its error was asked)",
                 row.method
             );
-            let found = ratio(own.and_then(|row| row.error), row.error);
-            targets.push(target(text, found, limit, limit));
+            let name = format!("{}-errors", row.method);
+            let found = over(own.and_then(|row| row.error), row.error);
+            ratios.push(Ratio {
+                worse: ERRORS,
+                ..ratio(name, text, found, limit, limit)
+            });
             continue;
         }
         let at_its_error = row.error.and_then(|error| time_at(&sweep, error));
         // Never as good as that: no time is short enough.
         let at_its_error = at_its_error.unwrap_or(f64::INFINITY);
-        targets.push(target(
+        ratios.push(ratio(
+            format!("{}-at-its-error", row.method),
             format!("sweep / {}, at its error", row.method),
-            ratio(Some(at_its_error), Some(row.seconds)),
+            over(Some(at_its_error), Some(row.seconds)),
             1.0,
             1.0,
         ));
     }
     let ours = seconds(SWEEP_SHIFTED, 4);
-    targets.push(target(
+    ratios.push(ratio(
+        "stamping".to_owned(),
         format!("sweep at 4 samples / {source_stamps} stamps an interval at 4 samples"),
-        ratio(ours, seconds(STAMPING_4, source_stamps)),
+        over(ours, seconds(STAMPING_4, source_stamps)),
         limits.stamping,
         ASKED.stamping,
     ));
-    targets.push(target(
+    ratios.push(ratio(
+        "stamping-at-its-error".to_owned(),
         "sweep at 4 samples / stamping at its error".to_owned(),
         against_stamping(rows),
         limits.stamping_at_error,
         ASKED.stamping_at_error,
     ));
-    targets
+    ratios
 }
 
 /// For each way to use `vello_cpu` its fastest row.
@@ -216,7 +230,12 @@ mod tests {
         ]
     }
 
-    fn ratios(rows: &[Row]) -> Vec<Option<Found>> {
+    fn targets(rows: &[Row], scenes: &[SceneStamps]) -> Vec<Target> {
+        let ratios = ratios(rows, scenes).into_iter();
+        ratios.map(|ratio| ratio.target).collect()
+    }
+
+    fn found(rows: &[Row]) -> Vec<Option<Found>> {
         let targets = targets(rows, &[("s", 10)]);
         targets.iter().map(|target| target.found).collect()
     }
@@ -230,15 +249,15 @@ mod tests {
 
     #[test]
     fn ratios_of_known_numbers() {
-        let ratios = ratios(&good());
-        assert_eq!(ratios.len(), 4);
-        is_close(ratios[0], 2.0 / 6.0);
+        let found = found(&good());
+        assert_eq!(found.len(), 4);
+        is_close(found[0], 2.0 / 6.0);
         // Half way between 1 and 4 samples, in logarithms.
-        is_close(ratios[1], 2f64.sqrt() / 6.0);
-        is_close(ratios[2], 2.0 / 8.0);
+        is_close(found[1], 2f64.sqrt() / 6.0);
+        is_close(found[2], 2.0 / 8.0);
         // From 0.05 to 0.0125 in 300 s of logarithms: to 0.04 it is the share ln 0.8 / ln 0.25.
         let way = 0.8f64.ln() / 0.25f64.ln();
-        is_close(ratios[3], 2.0 / (100.0 * 4f64.powf(way)));
+        is_close(found[3], 2.0 / (100.0 * 4f64.powf(way)));
     }
 
     #[test]
@@ -290,11 +309,10 @@ mod tests {
         let mut rows = good();
         rows[4].error = Some(1e-6);
         rows[3].error = Some(1e-6);
-        let found = ratios(&rows);
-        assert_eq!(found[1], Some(Found::Is(f64::INFINITY)));
+        assert_eq!(found(&rows)[1], Some(Found::Is(f64::INFINITY)));
         // Stamping that never gets there is slower than its last point.
         rows.retain(|row| row.knob < 256);
-        assert_eq!(ratios(&rows)[3], Some(Found::Below(2.0 / 100.0)));
+        assert_eq!(found(&rows)[3], Some(Found::Below(2.0 / 100.0)));
     }
 
     #[test]
@@ -303,5 +321,33 @@ mod tests {
         assert_eq!(targets.len(), 3);
         assert!(targets.iter().all(|target| !target.is_met()));
         assert!(report(&targets).contains("not measured"));
+    }
+
+    /// What a limit is has no part in what a ratio is found again by.
+    #[test]
+    fn every_ratio_has_a_steady_name_of_its_own() {
+        let mut rows = good();
+        rows.push(row("sweep", 16, 5.0, 0.12));
+        for scene in ["s", "ponytails", "twin-tails", "curtain", "fine-hairs"] {
+            for row in &mut rows {
+                row.scene = scene.to_owned();
+            }
+            let ratios = ratios(&rows, &[(scene, 10)]);
+            let names: Vec<&str> = ratios.iter().map(|ratio| ratio.name.as_str()).collect();
+            let of_vello = match limits(scene).error {
+                Some(_) => "vello-segments-errors",
+                None => "vello-segments-at-its-error",
+            };
+            assert_eq!(
+                names,
+                [
+                    "fastest-vello",
+                    of_vello,
+                    "stamping",
+                    "stamping-at-its-error"
+                ]
+            );
+            assert!(ratios.iter().all(|ratio| ratio.scene == scene));
+        }
     }
 }
