@@ -28,7 +28,7 @@ const WALK: &str = "--motion=presets/motions/walk-in-wind.motion.ron";
 
 const CELLS: &[Cell] = &[
     Cell("the result", &[]),
-    // Thin strokes of one colour along the strands.
+    // Thin strokes along the strands.
     Cell(
         "its strands",
         &[

@@ -8,7 +8,7 @@ use crate::program::{cargo, on_ci, succeed};
 /// The web's target.
 pub const TARGET: &str = "wasm32-unknown-unknown";
 
-/// The tops of the layers below the programs: they pull in all the others, but for `document`, which watches files.
+/// The tops of the layers below the programs: they pull in all the others, but for `document`, which watches files, and `effects-testkit`, which tests use alone.
 const TOPS: &[&str] = &[
     "stage",
     "reference",

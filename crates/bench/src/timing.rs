@@ -138,7 +138,7 @@ mod tests {
     fn the_first_run_of_all_never_counts() {
         let effort = Effort {
             rounds: 1,
-            each: Duration::from_millis(80),
+            each: Duration::from_millis(300),
         };
         let mut count = 0;
         let run = || {

@@ -77,8 +77,11 @@ impl Neighbors {
     fn of(hair: &Hair) -> Self {
         let places: Vec<AtRest> = hair.strands.iter().map(at_rest).collect();
         let middles = places.iter().map(|place| place[1]).enumerate();
-        // Some strands in each cube: a head's surface has about so many squares of this size.
-        let edge_m = 4.0 * hair.head_height_m / (places.len() as f32).sqrt().max(1.0);
+        // Some strands in each cube: the surface that they are on has about so many squares of this size.
+        let (low, high) = (places.iter()).fold((Vec3::MAX, Vec3::MIN), |(low, high), place| {
+            (low.min(place[1]), high.max(place[1]))
+        });
+        let edge_m = 4.0 * (high - low).max_element() / (places.len() as f32).sqrt().max(1.0);
         let grid = Grid::new(middles, edge_m.max(1e-4));
         Self { places, grid }
     }

@@ -61,8 +61,9 @@ impl Grid {
             }
         };
         for ring in 0.. {
-            // A ring of more cubes than there are points takes longer than all points, and may lie beyond them.
-            if 24 * ring as usize * ring as usize > self.points.len() {
+            // More cubes than there are points take longer than all points, and may lie beyond them.
+            let side = 2 * ring as usize + 1;
+            if side * side * side > 27 + self.points.len() {
                 best.clear();
                 (self.points.iter()).for_each(|(_, index)| take(&mut best, *index));
                 break;
@@ -80,20 +81,21 @@ impl Grid {
     /// The points of the cubes that are so many away from a cube, along the axis on which they are the farthest.
     fn in_ring(&self, center: Cube, ring: i32) -> impl Iterator<Item = usize> {
         let rows = (-ring..=ring).flat_map(move |x| (-ring..=ring).map(move |y| (x, y)));
-        rows.flat_map(move |(x, y)| {
-            let row = [center[0].saturating_add(x), center[1].saturating_add(y)];
+        // Beyond the last cube there is none.
+        let rows = rows.filter_map(move |(x, y)| {
+            let row = [center[0].checked_add(x)?, center[1].checked_add(y)?];
+            Some((row, x.abs() == ring || y.abs() == ring))
+        });
+        rows.flat_map(move |(row, is_face)| {
             let z = center[2];
-            let (least, most) = (z.saturating_sub(ring), z.saturating_add(ring));
+            let ends = [z.checked_sub(ring), z.checked_add(ring)];
             // Inside of the ring's faces only its two ends belong to it.
-            let (some, more) = if x.abs() == ring || y.abs() == ring {
-                (least..=most, None)
-            } else {
-                (least..=least, Some(most..=most))
+            let stretches = match is_face {
+                true => [Some(z.saturating_sub(ring)..=z.saturating_add(ring)), None],
+                false => ends.map(|end| end.map(|end| end..=end)),
             };
-            [Some(some), more]
-                .into_iter()
-                .flatten()
-                .flat_map(move |z| self.in_row(row, z))
+            let stretches = stretches.into_iter().flatten();
+            stretches.flat_map(move |z| self.in_row(row, z))
         })
     }
 
@@ -146,6 +148,12 @@ mod tests {
         let grid = Grid::new(far.into_iter().enumerate(), 1e-3);
         let others = |i: usize| (i != 1).then(|| far[i].distance(far[1]));
         assert_eq!(grid.nearest(far[1], 1, others), [0]);
+        // In the last cube each point is there once.
+        let last = (0..60).map(|i| Vec3::splat(3e9 + 1e6 * i as f32));
+        let last: Vec<Vec3> = last.collect();
+        let grid = Grid::new(last.iter().copied().enumerate(), 1e-3);
+        let others = |i: usize| Some(last[i].distance(last[0]));
+        assert_eq!(grid.nearest(last[0], 5, others), [0, 1, 2, 3, 4]);
         let none = Grid::new([], 0.1);
         assert!(none.nearest(Vec3::ZERO, 1, |_| Some(0.0)).is_empty());
     }

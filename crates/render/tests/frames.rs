@@ -281,6 +281,11 @@ fn strands_and_paths_are_whole() {
         error,
         FrameError::RestPositions { positions: 7, .. }
     ));
+    let error = refused(|scene| scene.rest_forwards = vec![Vec3::Y; 7]);
+    assert!(matches!(
+        error,
+        FrameError::RestForwards { forwards: 7, .. }
+    ));
 }
 
 #[test]

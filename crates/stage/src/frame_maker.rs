@@ -610,7 +610,7 @@ impl ObjectFrame {
             let last = run.joints.end - 1;
             let at_rest = |joint: usize| along(points, paths.u[joint], Vec3::lerp);
             let forward = |joint: usize| {
-                let from = joint.min(last - 1).max(run.joints.start);
+                let from = joint.min(last.saturating_sub(1)).max(run.joints.start);
                 (at_rest(last.min(from + 1)) - at_rest(from)).normalize_or_zero()
             };
             forwards.extend(run.joints.clone().map(forward));

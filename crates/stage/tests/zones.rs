@@ -19,6 +19,7 @@ fn registry() -> Registry {
     let mut registry = Registry::new();
     effects_builtin::register(&mut registry).unwrap();
     effects_surface::register(&mut registry).unwrap();
+    effects_cartoon::register(&mut registry).unwrap();
     registry
 }
 
@@ -84,6 +85,32 @@ fn fine_hairs_come_loose_from_these_zones_alone() {
         count("fine-some", "zones: \"tail*\","),
     );
     assert!(all > 20 && some > 0 && some < all / 2, "{some} of {all}");
+}
+
+/// Joints of strips of light on hair of this style, with how much there is of each.
+fn strips(name: &str, style: &str, zones: &str) -> Vec<(glam::Vec3, f32)> {
+    let folder = folder(name);
+    fs::write(folder.join("two.style.ron"), style).unwrap();
+    let shines = "params: (exponent: 1, threshold: 0, full: 0, longest: 4)";
+    let text = preset(&format!("(effect: \"hair.zigzag\", {zones} {shines})"));
+    let preset = Preset::parse("look.ron", &text, &registry()).unwrap();
+    let mut stage = Stage::new(&preset, &in_folder(&folder)).unwrap();
+    let frame = stage.frame().unwrap();
+    let drawn = frame.objects[0].layer_joints[0].clone();
+    let of_joint = |joint: usize| (frame.paths.position[joint], frame.path_weights[joint]);
+    drawn.map(of_joint).collect()
+}
+
+/// Hair of other zones takes no part in a strip, and doesn't end it.
+#[test]
+fn strips_of_light_lie_on_these_zones_as_if_they_were_all_hair() {
+    let fringe = STYLE.find("        (name: \"fringe\"").unwrap();
+    let end = STYLE.find("        (name: \"tail-left\"").unwrap();
+    let tail_alone = [&STYLE[..fringe], &STYLE[end..]].concat();
+    let some = strips("strips-some", STYLE, "zones: \"tail*\",");
+    assert!(some.iter().any(|(_, weight)| *weight > 0.0));
+    assert!(some == strips("strips-tail", &tail_alone, ""));
+    assert!(some != strips("strips-all", STYLE, ""));
 }
 
 fn mistakes(layers: &str, name: &str) -> String {

@@ -82,10 +82,15 @@ impl ObjectFrame {
                 self.layer_joints.push(start..of_hair.end);
                 continue;
             }
-            let above = strands_above(hair, points, layer_number);
+            let above = strands_above(hair, points, (&self.left_out_by, layer_number));
             let seed = layer_seed(look.seed, &layer.name);
             if self.made.at_rest.len() == making {
-                let at_rest = made_at_rest(hair, (layer, layer_number), seed, look.path())?;
+                let at_rest = made_at_rest(
+                    hair,
+                    (layer, (&self.left_out_by, layer_number)),
+                    seed,
+                    look.path(),
+                )?;
                 self.made.at_rest.push(at_rest);
             }
             let at_rest = &self.made.at_rest[making];
@@ -154,14 +159,25 @@ impl ObjectFrame {
     }
 }
 
-/// The strands that a layer of that number makes paths of: those above the undercoat.
-fn strands_above<'a>(hair: &'a HairModel, points: &'a [Vec3], layer: usize) -> Vec<HairStrand<'a>> {
+/// The layers that leave each strand of a hair out, or none where none does, and the number of the one that draws.
+type DrawnBy<'a> = (&'a [u32], usize);
+
+/// The strands that a layer makes paths of: those above the undercoat.
+fn strands_above<'a>(
+    hair: &'a HairModel,
+    points: &'a [Vec3],
+    (left_out_by, layer): DrawnBy,
+) -> Vec<HairStrand<'a>> {
     let of_strand = |(i, info): (usize, &StrandInfo)| HairStrand {
         id: info.id,
         particles: &points[hair.file.strands.point_range(i)],
         at_rest: hair.file.strands.strand(i),
         size: info.size,
-        is_drawn: !info.is_left_out_by(layer),
+        is_drawn: !StrandInfo {
+            left_out_by: left_out_by.get(i).copied().unwrap_or(0),
+            ..*info
+        }
+        .is_left_out_by(layer),
     };
     let above = hair.infos.iter().enumerate().skip(hair.undercoat);
     above.map(of_strand).collect()
@@ -170,12 +186,12 @@ fn strands_above<'a>(hair: &'a HairModel, points: &'a [Vec3], layer: usize) -> V
 /// The paths that a layer makes of hair at rest: as a path keeps its name, they tell which of its joints a picture needs.
 fn made_at_rest(
     hair: &HairModel,
-    (layer, number): (&Layer, usize),
+    (layer, drawn_by): (&Layer, DrawnBy),
     seed: u32,
     path: PathKind,
 ) -> Result<Vec<MadeAtRest>, StageError> {
     let of_effects = effects::Hair {
-        strands: &strands_above(hair, hair.file.strands.points(), number),
+        strands: &strands_above(hair, hair.file.strands.points(), drawn_by),
         head_center: hair.head.center,
         head_center_at_rest: hair.head.center,
         head_height_m: hair.head.height_m,

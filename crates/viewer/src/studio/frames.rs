@@ -8,6 +8,7 @@ use crate::motion_script::{LATEST_END_S, MotionTrack};
 use crate::prompt::Prompt;
 use crate::transport::SETTLING_S;
 use eframe::egui::{ColorImage, TextureOptions};
+use stage::Hand;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -110,16 +111,23 @@ impl Studio {
             hand: self.grip.hand().clone(),
             backend: self.backend,
         };
-        // Of one that nobody sees only its mistakes are of interest: it stays as it was seen last.
-        let last = self.engine.last().filter(|_| !self.is_picture_there);
-        let wish = match last.cloned() {
-            Some(last) => Wish {
+        // Of one that nobody sees only its mistakes are of interest: it stays as it was seen last, or at the beginning where that is of another
+        // preset or time was put back.
+        let last = self.engine.last();
+        let last = last.filter(|last| last.opened == wish.opened && last.time_s <= wish.time_s);
+        let wish = match (self.is_picture_there, last) {
+            (true, _) => wish,
+            (false, Some(last)) => Wish {
                 looks: wish.looks,
-                opened: wish.opened,
                 is_moving: false,
-                ..last
+                ..last.clone()
             },
-            None => wish,
+            (false, None) => Wish {
+                is_moving: false,
+                time_s: 0.0,
+                hand: Hand::new(),
+                ..wish
+            },
         };
         let is_new = self.engine.wish(wish);
         self.is_sharp &= !is_new;
