@@ -27,7 +27,8 @@ fn hair_is_told_how_it_runs_at_rest() {
         motion: Some(script),
         ..Files::default()
     };
-    let preset = Preset::parse("look.ron", &text, &registry()).unwrap();
+    let registry = registry();
+    let preset = Preset::parse("look.ron", &text, &registry).unwrap();
     let mut stage = Stage::new(&preset, &files).unwrap();
     let frame = stage.frame().unwrap();
     let mut count = 0;
@@ -50,7 +51,8 @@ fn a_point_has_no_direction_at_rest() {
     let hair = Path::new(env!("CARGO_TARGET_TMPDIR")).join("point.strands.ron");
     std::fs::write(&hair, "(version: 1, strands: [(points: [(0, 0.1, 0)])])").unwrap();
     let text = r#"(version: 1, head: (shape: none), layers: [(effect: "hair.band")])"#;
-    let preset = Preset::parse("look.ron", text, &registry()).unwrap();
+    let registry = registry();
+    let preset = Preset::parse("look.ron", text, &registry).unwrap();
     let files = Files {
         hair: Some(hair),
         ..Files::default()

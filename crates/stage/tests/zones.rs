@@ -93,7 +93,8 @@ fn strips(name: &str, style: &str, zones: &str) -> Vec<(glam::Vec3, f32)> {
     fs::write(folder.join("two.style.ron"), style).unwrap();
     let shines = "params: (exponent: 1, threshold: 0, full: 0, longest: 4)";
     let text = preset(&format!("(effect: \"hair.zigzag\", {zones} {shines})"));
-    let preset = Preset::parse("look.ron", &text, &registry()).unwrap();
+    let registry = registry();
+    let preset = Preset::parse("look.ron", &text, &registry).unwrap();
     let mut stage = Stage::new(&preset, &in_folder(&folder)).unwrap();
     let frame = stage.frame().unwrap();
     let drawn = frame.objects[0].layer_joints[0].clone();
