@@ -120,7 +120,8 @@ pub fn read_hair(path: &Path, options: &HairOptions) -> Result<HairFile, HairErr
     })
 }
 
-/// Reads a head, bust or body. `up` and `scale` (metres a unit) override what would be guessed.
+/// Reads a head, bust or body. `up` and `scale` (metres a unit) override what would be guessed: by all of it but meshes that are called hair
+/// ([`is_called_hair`]), as these may hide a neck.
 ///
 /// # Errors
 ///
@@ -146,7 +147,7 @@ pub fn read_head(path: &Path, up: Option<Axes>, scale: Option<f32>) -> Result<He
     };
     let (orientation, note) = match model.is_metric {
         true => orient::known_head(&mesh, &given),
-        false => orient::head(&mesh, &given),
+        false => orient::head_by(&without_hair(&model), &mesh, &given),
     };
     mesh.positions
         .iter_mut()
@@ -164,6 +165,25 @@ pub fn read_head(path: &Path, up: Option<Axes>, scale: Option<f32>) -> Result<He
         orientation,
         notes,
     })
+}
+
+/// Whether `hair` is a part of the name of a mesh or of its material.
+#[must_use]
+pub fn is_called_hair(model: &Model, mesh: &mesh_io::Mesh) -> bool {
+    let material = mesh.material.and_then(|index| model.materials.get(index));
+    let names = [Some(&mesh.name), material.map(|material| &material.name)];
+    let says_hair = |name: &String| name.to_ascii_lowercase().contains("hair");
+    names.into_iter().flatten().any(says_hair)
+}
+
+/// The shape of a model without its hair, or whole where nothing else is in it.
+fn without_hair(model: &Model) -> Mesh {
+    let others = (model.meshes.iter()).filter(|mesh| !is_called_hair(model, mesh));
+    let shape = Mesh::from_corners(others.flat_map(mesh_io::Mesh::corners));
+    match shape.triangles.is_empty() {
+        true => model.welded(),
+        false => shape,
+    }
 }
 
 /// Writes strands and their motion as a strands file (see [`strands_ron`]): beside its place first,

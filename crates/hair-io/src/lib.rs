@@ -38,7 +38,9 @@ pub mod tfx;
 mod whole_file;
 
 pub use error::HairError;
-pub use file::{HairFile, HairOptions, HeadFile, read_hair, read_head, write_strands};
+pub use file::{
+    HairFile, HairOptions, HeadFile, is_called_hair, read_hair, read_head, write_strands,
+};
 pub use format::is_hair_file;
 pub use head::HeadFrame;
 pub use mesh_io::{

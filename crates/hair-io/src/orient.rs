@@ -61,7 +61,12 @@ pub fn known_hair(strands: &Strands, given: &Given) -> (Orientation, String) {
 /// ([`HeadFrame`]), tells the unit.
 #[must_use]
 pub fn head(mesh: &Mesh, given: &Given) -> (Orientation, String) {
-    let points: Vec<DVec3> = mesh.positions.iter().map(|p| p.as_dvec3()).collect();
+    head_by(mesh, mesh, given)
+}
+
+/// The same, guessed by a part of it, `shape`.
+pub(crate) fn head_by(shape: &Mesh, mesh: &Mesh, given: &Given) -> (Orientation, String) {
+    let points: Vec<DVec3> = shape.positions.iter().map(|p| p.as_dvec3()).collect();
     let (low, high) = bounds(points.iter()).unwrap_or_default();
     let size = high - low;
     let place = (low + high) * 0.5;
@@ -76,10 +81,10 @@ pub fn head(mesh: &Mesh, given: &Given) -> (Orientation, String) {
     let up = given.up.unwrap_or(Axes::liked(likes_y));
 
     let scale = given.scale.unwrap_or_else(|| {
-        let positions = mesh.positions.iter().map(|p| up.to_y_up(*p)).collect();
+        let positions = shape.positions.iter().map(|p| up.to_y_up(*p)).collect();
         let turned = Mesh {
             positions,
-            ..mesh.clone()
+            ..shape.clone()
         };
         let frame = HeadFrame::find(Some(&turned), &[]);
         scale_to(f64::from(frame.height), HEAD_HEIGHT, 1.0)

@@ -1,5 +1,6 @@
 //! Files of our own: choosing readers, writing, keeping guides with their motion.
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::PathBuf;
 
@@ -160,4 +161,59 @@ fn a_file_that_cannot_be_written_leaves_nothing() {
     let error = write_strands(&taken, &moving().0, None).unwrap_err();
     assert!(matches!(error, HairError::Write { .. }));
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+}
+
+/// Ribbons that hang from the crown beside the neck, as faces of an OBJ file's group after so many vertices.
+fn ribbons(vertices: usize) -> String {
+    let mut text = String::from("g Long_Hair\n");
+    let mut next = vertices + 1;
+    for turn in 4..32 {
+        for row in 0..21_u8 {
+            let along = f32::from(row) / 20.0;
+            let over = (3.0 * along).clamp(0.12, 1.0) * std::f32::consts::FRAC_PI_2;
+            let y = match along < 1.0 / 3.0 {
+                true => 1.5 + 0.13 * over.cos(),
+                false => 1.5 - 0.5 * (along - 1.0 / 3.0),
+            };
+            for side in [-6.0_f32, 6.0] {
+                let angle = (10.0 * turn as f32 + side).to_radians();
+                let (x, z) = (
+                    0.11 * over.sin() * angle.sin(),
+                    0.11 * over.sin() * angle.cos(),
+                );
+                writeln!(text, "v {x} {y} {z}").unwrap();
+            }
+        }
+        for row in 0..20 {
+            let [a, b, c, d] = [0, 1, 2, 3].map(|i| next + 2 * row + i);
+            writeln!(text, "f {a} {b} {c}\nf {b} {d} {c}").unwrap();
+        }
+        next += 42;
+    }
+    text
+}
+
+/// Long hair of a file's own hides the neck, by which a unit is guessed.
+#[test]
+fn a_unit_is_guessed_without_what_is_called_hair() {
+    let folder = tempfile::tempdir().unwrap();
+    let bust = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../tests/yardsticks/bust.obj");
+    let bust = fs::read_to_string(bust).unwrap();
+    let vertices = bust.lines().filter(|line| line.starts_with("v ")).count();
+    let read = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        fs::write(&path, text).unwrap();
+        read_head(&path, None, None).unwrap()
+    };
+    let bald = read("bald.obj", &bust);
+    let haired = read("haired.obj", &format!("{bust}{}", ribbons(vertices)));
+    assert_eq!(haired.orientation, bald.orientation);
+    assert!(haired.mesh.triangles.len() > bald.mesh.triangles.len());
+    assert!(
+        haired.notes[0].contains("guessed Y up, metres"),
+        "{:?}",
+        haired.notes
+    );
+    let alone = read("alone.obj", &ribbons(0));
+    assert!(!alone.mesh.triangles.is_empty());
 }

@@ -155,6 +155,12 @@ pub(crate) fn head(
             path.display()
         ));
     }
+    if let (None, Some(name)) = (&own_hair, mesh_hair::in_shape(&model, &no_shape)) {
+        notes.push(format!(
+            "head: what is called `{name}` is a part of the head's shape, as none of it becomes strands: hide it where other hair grows there \
+             (head.hide, --set 'head.hide={name}')"
+        ));
+    }
     let frame = match &own_hair {
         Some(_) => without_kept(&model, &path, orientation, &preset.sections.hair, &no_shape),
         None => None,

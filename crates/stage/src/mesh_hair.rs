@@ -9,7 +9,7 @@ use crate::preset::HairSection;
 use glam::{Vec2, Vec3};
 use hair_io::mesh_hair::{Lock, LockStrand, MeshHair, islands, locks};
 use hair_io::orient::Orientation;
-use hair_io::{HairFile, HeadFrame, Mesh};
+use hair_io::{HairFile, HeadFrame, Mesh, is_called_hair};
 use hair_sim::Strands;
 use mesh_io::{Model, Rig};
 use render::NO_COLOR;
@@ -89,7 +89,7 @@ pub(crate) fn find(
         .as_ref()
         .map(|rig| Bones::new(rig, &wanted, &kept));
     let is_named = |mesh: &mesh_io::Mesh| match wanted.is_empty() {
-        true => has_hair_in_name(model, mesh),
+        true => is_called_hair(model, mesh),
         false => MeshNames(wanted).have(model, mesh),
     };
     let is_kept = |mesh: &mesh_io::Mesh| MeshNames(kept).have(model, mesh);
@@ -416,8 +416,10 @@ fn says_hair(name: &str) -> bool {
     name.to_ascii_lowercase().contains(HAIR)
 }
 
-fn has_hair_in_name(model: &Model, mesh: &mesh_io::Mesh) -> bool {
-    crate::painted::names_of(model, mesh).any(says_hair)
+/// The name that is called hair, of a mesh or its material, of the first one in a head's shape: what isn't in `no_shape`, which tells of each triangle.
+pub(crate) fn in_shape<'m>(model: &'m Model, no_shape: &[Vec<bool>]) -> Option<&'m str> {
+    let names = |index: usize| crate::painted::names_of(model, &model.meshes[index]);
+    shown(no_shape).flat_map(names).find(|name| says_hair(name))
 }
 
 /// The names of the spring bones of a model.

@@ -62,6 +62,20 @@ fn what_is_called_hair_becomes_strands_and_is_hidden() {
     );
 }
 
+/// Hair of a file's own that becomes no strands is told: other hair would grow on it as on skin.
+#[test]
+fn hair_that_stays_a_part_of_the_head_is_told() {
+    let folder = folder(|gltf| gltf["meshes"][1]["name"] = json!("Front_Hair"));
+    let style = "(version: 1, zones: [(name: \"top\", count: 3, roots: [(0, 80), (60, 80)])])";
+    fs::write(folder.path().join("top.style.ron"), style).unwrap();
+    let told = "`Front_Hair` is a part of the head's shape";
+    let notes = |hair: &str| scene(folder.path(), hair).unwrap().notes().join("\n");
+    let other = notes("file: \"top.style.ron\"");
+    assert!(other.contains(told), "{other}");
+    let own = notes("from: character");
+    assert!(!own.contains(told), "{own}");
+}
+
 #[test]
 fn strands_have_the_colours_and_the_size_of_the_mesh() {
     let folder = folder(|_| {});
