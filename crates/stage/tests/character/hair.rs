@@ -66,7 +66,8 @@ fn what_is_called_hair_becomes_strands_and_is_hidden() {
 #[test]
 fn hair_that_stays_a_part_of_the_head_is_told() {
     let folder = folder(|gltf| gltf["meshes"][1]["name"] = json!("Front_Hair"));
-    let style = "(version: 1, zones: [(name: \"top\", count: 3, roots: [(0, 80), (60, 80)])])";
+    let style =
+        "(version: 1, zones: [(name: \"top\", count: 3, roots: [(0, 80), (60, 80)], hang: 0.2)])";
     fs::write(folder.path().join("top.style.ron"), style).unwrap();
     let told = "`Front_Hair` is a part of the head's shape";
     let notes = |hair: &str| scene(folder.path(), hair).unwrap().notes().join("\n");
