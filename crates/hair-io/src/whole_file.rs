@@ -308,7 +308,7 @@ mod tests {
         fs::set_permissions(&path, permissions).unwrap();
         // Who is root may write everywhere.
         if File::options().write(true).open(&path).is_ok() {
-            return println!("SKIPPED 1 test: nothing is protected from root");
+            return eprintln!("SKIPPED 1 test: nothing is protected from root");
         }
         for tried in [try_to_write(&path), write_whole(&path, b"new")] {
             assert_eq!(tried.unwrap_err().kind(), ErrorKind::PermissionDenied);
