@@ -299,7 +299,7 @@ mod tests {
     }
 
     #[test]
-    #[allow(clippy::print_stderr, reason = "what is not tried is said")]
+    #[expect(clippy::print_stderr, reason = "skipped tests say so")]
     fn a_protected_file_stays() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.txt");

@@ -1,4 +1,5 @@
 //! `inkstrand check` judges files of every kind, and never other than `render`.
+#![expect(clippy::print_stdout, reason = "skipped tests say so")]
 
 use assert_cmd::Command;
 use predicates::prelude::*;

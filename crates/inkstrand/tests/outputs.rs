@@ -1,4 +1,5 @@
 //! What is written where: nothing is lost, and what cannot be is said before the work.
+#![expect(clippy::print_stdout, reason = "skipped tests say so")]
 
 use assert_cmd::Command;
 use predicates::prelude::*;
