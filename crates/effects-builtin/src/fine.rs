@@ -3,6 +3,7 @@
 use effects::wgsl::{hash, random, random_signed, sin_pi};
 use effects::{Grid, Hair, HairStrand, MOST_PATHS, MadePaths, strand_seed};
 use glam::Vec3;
+use rayon::prelude::*;
 
 effects::effect!("fine");
 
@@ -31,30 +32,54 @@ impl effects::StrokeEffect for Fine {
     const OWN_PATHS: bool = true;
 
     fn make_paths(params: &Params, hair: &Hair, seed: u32, paths: &mut MadePaths) {
-        let neighbors = Neighbors::of(hair);
-        for (index, strand) in hair.strands.iter().enumerate() {
-            let strand_seed = strand_seed(seed, strand.id);
-            // A half hair is there for every other strand.
-            let number = (params.per_strand + random(strand_seed, MOST_PATHS)) as u32;
-            if number == 0 || strand.particles.len() < 2 || !strand.is_drawn {
-                continue;
-            }
-            let neighbours = neighbors.nearest(index, params.neighbours as usize);
-            for hair_number in 0..number.min(MOST_PATHS) {
-                let line = FineHair::new(params, hash(strand_seed ^ hash(hair_number)));
+        let neighbours = paths.once(|| Neighbours::of(params, hair, seed));
+        paths.push_each(hair.strands.len(), |index, paths| {
+            let strand = &hair.strands[index];
+            let neighbours = &neighbours.of_strands[index];
+            for hair_number in 0..hairs_of(params, strand, seed) {
+                let seed = hash(strand_seed(seed, strand.id) ^ hash(hair_number));
+                let line = FineHair::new(params, seed);
                 let choice = (line.choice * neighbours.len() as f32) as usize;
-                let neighbour = neighbours.get(choice).map(|&i| &hair.strands[i]);
+                let neighbour = neighbours.get(choice).map(|&i| &hair.strands[i as usize]);
                 let points = (0..POINTS).map(|i| i as f32 / (POINTS - 1) as f32);
                 let points = points.map(|t| line.point(t, hair, strand, neighbour));
                 paths.push(index, hair_number, points);
             }
-        }
+        });
     }
 
     fn reach(params: &Params) -> effects::Reach {
         effects::Reach {
             clumps: 0.0,
             units: params.width,
+        }
+    }
+}
+
+/// How many hairs a strand has. A half hair is there for every other strand.
+fn hairs_of(params: &Params, strand: &HairStrand, seed: u32) -> u32 {
+    if strand.particles.len() < 2 || !strand.is_drawn {
+        return 0;
+    }
+    let own = random(strand_seed(seed, strand.id), MOST_PATHS);
+    ((params.per_strand + own) as u32).min(MOST_PATHS)
+}
+
+/// Which strands run beside each strand that has hairs, the nearest first.
+struct Neighbours {
+    of_strands: Vec<Vec<u32>>,
+}
+
+impl Neighbours {
+    fn of(params: &Params, hair: &Hair, seed: u32) -> Self {
+        let all = AllAtRest::of(hair);
+        let of_strand = |(index, strand)| match hairs_of(params, strand, seed) {
+            0 => Vec::new(),
+            _ => all.nearest(index, params.neighbours as usize),
+        };
+        let strands = hair.strands.par_iter().enumerate();
+        Self {
+            of_strands: strands.map(of_strand).collect(),
         }
     }
 }
@@ -67,13 +92,13 @@ fn at_rest(strand: &HairStrand) -> AtRest {
 }
 
 /// All strands at rest.
-struct Neighbors {
+struct AllAtRest {
     places: Vec<AtRest>,
     /// By their middles.
     grid: Grid,
 }
 
-impl Neighbors {
+impl AllAtRest {
     fn of(hair: &Hair) -> Self {
         let places: Vec<AtRest> = hair.strands.iter().map(at_rest).collect();
         let middles = places.iter().map(|place| place[1]).enumerate();
@@ -87,16 +112,17 @@ impl Neighbors {
     }
 
     /// The `number` strands that run beside strand `index` at rest, the nearest first: their roots, middles and tips are near.
-    fn nearest(&self, index: usize, number: usize) -> Vec<usize> {
+    fn nearest(&self, index: usize, number: usize) -> Vec<u32> {
         let own = self.places[index];
         // No less than how far their middles are.
         let distance = |place: &AtRest| -> f32 {
             let pairs = own.iter().zip(place);
             pairs.map(|(a, b)| a.distance(*b)).sum()
         };
-        (self.grid).nearest(own[1], number, |other| {
+        let nearest = self.grid.nearest(own[1], number, |other| {
             (other != index).then(|| distance(&self.places[other]))
-        })
+        });
+        nearest.into_iter().map(|other| other as u32).collect()
     }
 }
 

@@ -9,6 +9,7 @@
 use effects::wgsl::power;
 use effects::{Grid, Hair, HairStrand, MadePaths};
 use glam::Vec3;
+use rayon::prelude::*;
 
 mod locks;
 mod merge;
@@ -67,7 +68,7 @@ impl effects::StrokeEffect for Zigzag {
         let groups = params.groups as usize;
         let within_m = params.merge * hair.head_height_m;
         let shining = |group: usize| {
-            let mut shining: Vec<Highlight> = (hair.strands.iter())
+            let mut shining: Vec<Highlight> = (hair.strands.par_iter())
                 .map(|strand| Highlight::of(params, hair, strand, group, groups))
                 .collect();
             if within_m > 0.0 {
@@ -75,11 +76,10 @@ impl effects::StrokeEffect for Zigzag {
             }
             shining
         };
-        let locks = locks::of(hair, within_m);
-        let neighbors = Neighbors::of(hair, &locks);
-        let next: Vec<Option<usize>> = (0..locks.len()).map(|i| neighbors.next_across(i)).collect();
+        let linked = paths.once(|| Linked::of(hair, within_m));
+        let (locks, next) = (&linked.locks, &linked.next);
         let strips: Vec<Strip> = (0..groups)
-            .map(|group| Strip::of(params, hair, &locks, &next, &shining(group)))
+            .map(|group| Strip::of(params, hair, locks, next, &shining(group)))
             .collect();
         for (lock, next) in next.iter().enumerate() {
             let Some(next) = *next else {
@@ -105,6 +105,23 @@ impl effects::StrokeEffect for Zigzag {
             clumps: 0.0,
             units: 0.5 * params.width,
         }
+    }
+}
+
+/// What is linked, chosen by the hair at rest.
+struct Linked {
+    locks: Vec<Lock>,
+    /// The lock that is next to each across the hair.
+    next: Vec<Option<usize>>,
+}
+
+impl Linked {
+    fn of(hair: &Hair, within_m: f32) -> Self {
+        let locks = locks::of(hair, within_m);
+        let neighbors = Neighbors::of(hair, &locks);
+        let all = (0..locks.len()).into_par_iter();
+        let next = all.map(|lock| neighbors.next_across(lock)).collect();
+        Self { locks, next }
     }
 }
 

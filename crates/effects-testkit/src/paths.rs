@@ -41,6 +41,23 @@ fn made_around(
     (now, center): (&[Vec<Vec3>], Vec3),
     time: f32,
 ) -> Result<Vec<Path>, String> {
+    made_again(
+        program,
+        rest,
+        (now, center),
+        time,
+        &mut MadePaths::default(),
+    )
+}
+
+/// The same, in place of those of a frame before.
+fn made_again(
+    program: &dyn LayerProgram,
+    rest: &[Vec<Vec3>],
+    (now, center): (&[Vec<Vec3>], Vec3),
+    time: f32,
+    paths: &mut MadePaths,
+) -> Result<Vec<Path>, String> {
     let around = |degrees: f32| Quat::from_rotation_y(degrees.to_radians());
     let light = around(120.0 * time - 40.0) * Vec3::new(0.0, 0.7, 0.7);
     let eye = center + around(90.0 * time) * Vec3::new(0.0, 0.1, 8.0 * HEAD_M);
@@ -63,8 +80,8 @@ fn made_around(
         light: Light::Direction(light.normalize()),
         eye,
     };
-    let mut paths = MadePaths::default();
-    program.make_paths(&hair, 1, &mut paths);
+    paths.clear();
+    program.make_paths(&hair, 1, paths);
     if let Some(fault) = paths.fault() {
         return Err(fault.to_owned());
     }
@@ -105,8 +122,34 @@ pub(crate) fn check(effect: &dyn AnyEffect) -> Result<(), String> {
     if before != made(&*program, &rest, &rest)? {
         return Err("made again, the paths are others".to_owned());
     }
+    keeps_what_stays(&*program, &rest, &before)?;
     goes_with_the_head(&*program, &rest)?;
     moves_with_the_hair(&*program, &rest)
+}
+
+/// Paths that are made after those of a frame in which hair, light and eye were elsewhere are those that are made at first.
+fn keeps_what_stays(
+    program: &dyn LayerProgram,
+    rest: &[Vec<Vec3>],
+    at_first: &[Path],
+) -> Result<(), String> {
+    let blown = |points: &Vec<Vec3>| points.iter().map(|point| blown(*point, 1.0)).collect();
+    let elsewhere: Vec<Vec<Vec3>> = rest.iter().map(blown).collect();
+    let mut paths = MadePaths::default();
+    made_again(
+        program,
+        rest,
+        (&elsewhere, HEAD_M * Vec3::X),
+        1.0,
+        &mut paths,
+    )?;
+    if at_first != made_again(program, rest, (rest, Vec3::ZERO), 0.0, &mut paths)? {
+        return Err(
+            "in the second frame the paths are others than they were in the first: what `MadePaths::once` keeps hangs on the hair at rest"
+                .to_owned(),
+        );
+    }
+    Ok(())
 }
 
 /// Hair whose head has come some heads away, with eye and light along, has the paths that it had, moved along.

@@ -400,6 +400,18 @@ fn paths_are_finite_and_the_same_ones_in_every_frame() {
         }
     });
     assert_fails::<Wanders>(CHECK, "where the hair moves there are other paths");
+    // What it keeps is where the hair was in the first frame.
+    spoil!(Keeps {
+        const OWN_PATHS: bool = true;
+        fn make_paths(hair: &Hair, paths: &mut MadePaths) {
+            let tips = || hair.strands.iter().map(|own| own.point(1.0)).collect();
+            let kept: std::sync::Arc<Vec<glam::Vec3>> = paths.once(tips);
+            for (strand, own) in hair.strands.iter().enumerate() {
+                paths.push(strand, 0, [own.point(0.0), kept[strand]]);
+            }
+        }
+    });
+    assert_fails::<Keeps>(CHECK, "in the second frame the paths are others");
     spoil!(Stranger {
         const OWN_PATHS: bool = true;
         fn make_paths(hair: &Hair, paths: &mut MadePaths) {

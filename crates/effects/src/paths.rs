@@ -2,6 +2,9 @@
 
 use crate::light::Light;
 use glam::Vec3;
+use rayon::prelude::*;
+use std::any::Any;
+use std::sync::Arc;
 
 /// The hair as it stands, for effects that make paths.
 #[derive(Clone, Copy, Debug)]
@@ -61,7 +64,7 @@ fn point(particles: &[Vec3], u: f32) -> Vec3 {
     a + (b - a) * (place - i as f32)
 }
 
-/// Paths that an effect made for one frame.
+/// Paths that an effect made for one frame, and what it keeps for the next ones.
 #[derive(Clone, Debug, Default)]
 pub struct MadePaths {
     points: Vec<Vec3>,
@@ -69,7 +72,11 @@ pub struct MadePaths {
     weights: Vec<f32>,
     paths: Vec<Part>,
     fault: Option<String>,
+    kept: Option<Arc<dyn Any + Send + Sync>>,
 }
+
+/// Strands whose paths a thread makes at a time.
+const SOME_STRANDS: usize = 32;
 
 /// Where a path's points end, and whose it is.
 #[derive(Clone, Copy, Debug)]
@@ -113,12 +120,48 @@ impl MadePath<'_> {
 pub const MOST_PATHS: u32 = 8;
 
 impl MadePaths {
-    /// Forgets all paths.
+    /// Forgets all paths, but not what the effect keeps ([`Self::once`]): for the next frame of the same layer on the same hair.
     pub fn clear(&mut self) {
         self.points.clear();
         self.weights.clear();
         self.paths.clear();
         self.fault = None;
+    }
+
+    /// What `find` finds, which is asked in the first frame alone: for what hangs on parameters, seed and what strands are in every frame ([`HairStrand::id`],
+    /// [`HairStrand::at_rest`], [`HairStrand::size`], [`HairStrand::is_drawn`]), as which of them are neighbours. An effect keeps one such thing.
+    pub fn once<T: Send + Sync + 'static>(&mut self, find: impl FnOnce() -> T) -> Arc<T> {
+        let kept = self.kept.clone().and_then(|kept| kept.downcast().ok());
+        kept.unwrap_or_else(|| {
+            let found = Arc::new(find());
+            self.kept = Some(found.clone());
+            found
+        })
+    }
+
+    /// Adds the paths of as many strands, which several threads make at once: `make` adds those of one, an index of [`Hair::strands`], as [`Self::push`] does.
+    pub fn push_each(&mut self, strands: usize, make: impl Fn(usize, &mut Self) + Sync) {
+        let of_some = |first: usize| {
+            let mut own = Self::default();
+            let last = (first + SOME_STRANDS).min(strands);
+            (first..last).for_each(|strand| make(strand, &mut own));
+            own
+        };
+        let some = (0..strands.div_ceil(SOME_STRANDS)).into_par_iter();
+        let parts: Vec<Self> = some.map(|i| of_some(i * SOME_STRANDS)).collect();
+        parts.iter().for_each(|part| self.append(part));
+    }
+
+    /// Adds paths that come after its own.
+    fn append(&mut self, other: &Self) {
+        for path in other.iter() {
+            let points = path.points.iter().zip(path.weights);
+            let points = points.map(|(point, weight)| (*point, *weight));
+            self.push_weighted(path.strand, path.number, points);
+        }
+        if let Some(fault) = &other.fault {
+            self.fault.get_or_insert_with(|| fault.clone());
+        }
     }
 
     /// Adds path `number` (0 to 7) of strand `strand`, an index of [`Hair::strands`]: its points from root
@@ -242,6 +285,68 @@ mod tests {
             (2, 1, vec![]),
         ];
         assert_eq!(made, expected);
+    }
+
+    #[test]
+    fn threads_make_the_paths_that_one_makes() {
+        let make = |strand: usize, paths: &mut MadePaths| {
+            for number in 0..(strand % 3) as u32 {
+                let points = (0..strand % 5).map(|i| (Vec3::splat((strand + i) as f32), i as f32));
+                paths.push_weighted(strand, number, points);
+            }
+        };
+        let all = |paths: &MadePaths| -> Vec<_> {
+            let own = |path: MadePath| {
+                let (points, weights) = (path.points.to_vec(), path.weights.to_vec());
+                (path.strand, path.number, points, weights)
+            };
+            paths.iter().map(own).collect()
+        };
+        for strands in [0, 1, SOME_STRANDS, 5 * SOME_STRANDS + 3] {
+            let (mut one, mut many) = (MadePaths::default(), MadePaths::default());
+            (0..strands).for_each(|strand| make(strand, &mut one));
+            many.push_each(strands, make);
+            assert_eq!(all(&many), all(&one));
+            assert_eq!(many.fault(), None);
+        }
+        // What is wrong is found between those of different threads, too, and the first of it is said.
+        let mut paths = MadePaths::default();
+        paths.push_each(2 * SOME_STRANDS, |_, paths| paths.push(7, 0, [Vec3::X]));
+        assert_eq!(paths.iter().count(), 1);
+        let mut paths = MadePaths::default();
+        paths.push_each(2 * SOME_STRANDS, |strand, paths| {
+            paths.push(strand, strand as u32, [])
+        });
+        assert!(
+            paths.fault().unwrap().contains("strand 8 has a path 8"),
+            "{:?}",
+            paths.fault()
+        );
+        let mut paths = MadePaths::default();
+        let one_each = |strand: usize, paths: &mut MadePaths| {
+            let place = if strand < SOME_STRANDS {
+                strand
+            } else {
+                strand - 1
+            };
+            paths.push(place, 0, []);
+        };
+        paths.push_each(2 * SOME_STRANDS, one_each);
+        let last = format!("of strand {}", SOME_STRANDS - 1);
+        assert!(
+            paths.fault().unwrap().contains(&last),
+            "{:?}",
+            paths.fault()
+        );
+    }
+
+    #[test]
+    fn what_is_kept_is_found_once() {
+        let mut paths = MadePaths::default();
+        assert_eq!(*paths.once(|| vec![1, 2]), [1, 2]);
+        paths.clear();
+        assert_eq!(*paths.once(|| -> Vec<i32> { unreachable!() }), [1, 2]);
+        assert_eq!(*paths.once(|| "another kind"), "another kind");
     }
 
     #[test]

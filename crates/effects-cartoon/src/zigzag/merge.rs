@@ -8,6 +8,7 @@
 use super::{FAINT, Highlight, PLACES, smooth};
 use effects::{Grid, HairStrand};
 use glam::Vec3;
+use rayon::prelude::*;
 
 /// How often highlights move to the middle of those around them: each time they draw nearer to one line.
 const ROUNDS: usize = 3;
@@ -23,7 +24,7 @@ const OFF_LINE: f32 = 0.35;
 pub(super) fn onto_one_line(strands: &[HairStrand], shining: &mut [Highlight], within_m: f32) {
     for _ in 0..ROUNDS {
         let around = Around::of(strands, shining, within_m);
-        let places: Vec<f32> = (strands.iter().zip(&*shining).enumerate())
+        let places: Vec<f32> = (strands.par_iter().zip(&*shining).enumerate())
             .map(|(i, (strand, highlight))| {
                 place_near(strand, around.middle(i), highlight.place, within_m)
             })
@@ -33,7 +34,7 @@ pub(super) fn onto_one_line(strands: &[HairStrand], shining: &mut [Highlight], w
         }
     }
     let around = Around::of(strands, shining, within_m);
-    let shares: Vec<f32> = (strands.iter().enumerate())
+    let shares: Vec<f32> = (strands.par_iter().enumerate())
         .map(|(i, strand)| 1.0 - smooth(around.off_line_m(i, strand) / (OFF_LINE * within_m)))
         .collect();
     for (highlight, share) in shining.iter_mut().zip(shares) {

@@ -15,12 +15,18 @@ use stroke_path::{Coarseness, Detail, PathKind, Paths};
 /// The paths that an object's layers make.
 #[derive(Default)]
 pub(super) struct ObjectPaths {
-    /// Those of the layer that made some last.
-    paths: MadePaths,
-    /// Of each layer that makes paths those that it makes of the hair at rest; found where they are first drawn.
-    at_rest: Vec<Vec<MadeAtRest>>,
+    /// Of each layer that makes paths; where they have not been drawn yet there are none.
+    layers: Vec<LayerPaths>,
     /// The strand of its hair that each path of the last frame belongs to.
     strands: Vec<usize>,
+}
+
+/// What is kept of a layer that makes paths.
+struct LayerPaths {
+    /// Those of the last frame.
+    paths: MadePaths,
+    /// Those that it makes of the hair at rest.
+    at_rest: Vec<MadeAtRest>,
 }
 
 /// A path that a layer makes of the hair at rest.
@@ -33,7 +39,7 @@ struct MadeAtRest {
 impl ObjectPaths {
     /// Drops what was kept of another object.
     pub fn forget(&mut self) {
-        self.at_rest.clear();
+        self.layers.clear();
     }
 
     /// The strand of the object's hair that each path of the last frame belongs to.
@@ -84,16 +90,15 @@ impl ObjectFrame {
             }
             let above = strands_above(hair, points, (&self.left_out_by, layer_number));
             let seed = layer_seed(look.seed, &layer.name);
-            if self.made.at_rest.len() == making {
-                let at_rest = made_at_rest(
-                    hair,
-                    (layer, (&self.left_out_by, layer_number)),
-                    seed,
-                    look.path(),
-                )?;
-                self.made.at_rest.push(at_rest);
+            if self.made.layers.len() == making {
+                let drawn_by = (&self.left_out_by[..], layer_number);
+                let at_rest = LayerPaths::at_rest(hair, (layer, drawn_by), seed, look.path())?;
+                self.made.layers.push(at_rest);
             }
-            let at_rest = &self.made.at_rest[making];
+            let LayerPaths {
+                paths: made,
+                at_rest,
+            } = &mut self.made.layers[making];
             making += 1;
             let of_effects = effects::Hair {
                 strands: &above,
@@ -103,18 +108,16 @@ impl ObjectFrame {
                 light: self.of.placement().own_light(light),
                 eye: sight.camera().eye(),
             };
-            self.made.paths.clear();
-            layer
-                .program
-                .make_paths(&of_effects, seed, &mut self.made.paths);
+            made.clear();
+            layer.program.make_paths(&of_effects, seed, made);
             let fault = |what: String| StageError::MadePaths {
                 layer: layer.name.clone(),
                 what,
             };
-            if let Some(what) = self.made.paths.fault() {
+            if let Some(what) = made.fault() {
                 return Err(fault(what.to_owned()));
             }
-            let all: Vec<MadePath> = self.made.paths.iter().collect();
+            let all: Vec<MadePath> = made.iter().collect();
             let first = strands.len();
             for made in &all {
                 let (strand, number) = (made.strand, made.number);
@@ -183,31 +186,37 @@ fn strands_above<'a>(
     above.map(of_strand).collect()
 }
 
-/// The paths that a layer makes of hair at rest: as a path keeps its name, they tell which of its joints a picture needs.
-fn made_at_rest(
-    hair: &HairModel,
-    (layer, drawn_by): (&Layer, DrawnBy),
-    seed: u32,
-    path: PathKind,
-) -> Result<Vec<MadeAtRest>, StageError> {
-    let of_effects = effects::Hair {
-        strands: &strands_above(hair, hair.file.strands.points(), drawn_by),
-        head_center: hair.head.center,
-        head_center_at_rest: hair.head.center,
-        head_height_m: hair.head.height_m,
-        light: Light::Direction(Vec3::Z),
-        eye: hair.head.center + 10.0 * hair.head.height_m * Vec3::Z,
-    };
-    let mut made = MadePaths::default();
-    layer.program.make_paths(&of_effects, seed, &mut made);
-    let with_detail = |made: MadePath| {
-        Ok(MadeAtRest {
-            name: (made.strand, made.number, made.points.len()),
-            detail: Detail::of(made.points, path, &[], Coarseness::FINE)?,
+impl LayerPaths {
+    /// Those that a layer makes of hair at rest: as a path keeps its name, they tell which of its joints a picture needs.
+    fn at_rest(
+        hair: &HairModel,
+        (layer, drawn_by): (&Layer, DrawnBy),
+        seed: u32,
+        path: PathKind,
+    ) -> Result<Self, StageError> {
+        let of_effects = effects::Hair {
+            strands: &strands_above(hair, hair.file.strands.points(), drawn_by),
+            head_center: hair.head.center,
+            head_center_at_rest: hair.head.center,
+            head_height_m: hair.head.height_m,
+            light: Light::Direction(Vec3::Z),
+            eye: hair.head.center + 10.0 * hair.head.height_m * Vec3::Z,
+        };
+        let mut paths = MadePaths::default();
+        layer.program.make_paths(&of_effects, seed, &mut paths);
+        let with_detail = |made: MadePath| {
+            Ok(MadeAtRest {
+                name: (made.strand, made.number, made.points.len()),
+                detail: Detail::of(made.points, path, &[], Coarseness::FINE)?,
+            })
+        };
+        let made: Vec<MadePath> = paths.iter().collect();
+        let at_rest: Result<_, StageError> = made.into_par_iter().map(with_detail).collect();
+        Ok(Self {
+            at_rest: at_rest?,
+            paths,
         })
-    };
-    let made: Vec<MadePath> = made.iter().collect();
-    made.into_par_iter().map(with_detail).collect()
+    }
 }
 
 /// The number that the variations of path `number` of strand `id` hang on.
