@@ -159,8 +159,8 @@ struct Sample<'a> {
 ///
 /// When the text is not of the format, or of a newer version. Errors know their line and column.
 pub fn from_text(text: &str) -> Result<(Strands, Option<PointCache>), StrandsRonError> {
-    if let Some((strands, motion)) = written::read(text) {
-        return Ok((strands, Some(motion)));
+    if let Some(written) = written::read(text) {
+        return Ok(written);
     }
     let source = Source { text };
     let document: Document = options()

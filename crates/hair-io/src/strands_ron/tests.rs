@@ -208,7 +208,7 @@ proptest! {
         let motion = PointCache::new(samples).ok();
         let text = to_text(&strands, motion.as_ref());
         // As it is written, and as somebody has edited it, which is read as RON.
-        prop_assert_eq!(written::read(&text).is_some(), motion.is_some());
+        prop_assert_eq!(written::read(&text), Some((strands.clone(), motion.clone())));
         let edited = text.replace(",(", ", (") + "// edited";
         prop_assert_eq!(written::read(&edited), None);
         for text in [text, edited] {
@@ -232,6 +232,25 @@ proptest! {
         }
         let twice = text.replacen("strands: [", "motion: [], strands: [", 1);
         prop_assert!(written::read(&twice).is_none() && from_text(&twice).is_err());
+    }
+
+    /// Of what is no groom as it is written what is read is what RON says of it.
+    #[test]
+    fn what_is_wrong_in_a_groom_is_told(strands in groom(), at in 0.0..1.0) {
+        let text = to_text(&strands, None);
+        let cut = &text[..(at * (text.len() - 3) as f64) as usize];
+        prop_assert!(written::read(cut).is_none() && from_text(cut).is_err());
+        for (part, other) in [
+            ("points: [", "points: [(0.0,0.0)"), ("points: [(", "points: [(NaN,0.0,0.0),("), ("version: 1", "version: 2"), ("version: 1", "version: 0"),
+            ("(points", "(id: -1, points"), ("(points", "(size: -1.0, points"), ("(points", "(size: inf, points"), ("(points", "(sizes: 1.0, points"), ("points", "size: 1.0, size: 1.0, points"),
+        ] {
+            let wrong = text.replacen(part, other, 1);
+            prop_assert!(wrong == text || written::read(&wrong).is_none() && from_text(&wrong).is_err(), "{}", wrong);
+        }
+        // Two of one id.
+        let first = text.lines().nth(1).unwrap();
+        let twice = text.replacen(first, &format!("{first}\n{}", first.replacen('(', &format!("(id: {}, ", strands.id(0)), 1)), 1);
+        prop_assert!(first.starts_with("(id") || written::read(&twice).is_none() && from_text(&twice).is_err(), "{}", twice);
     }
 
     #[test]
