@@ -209,6 +209,8 @@ proptest! {
         let text = to_text(&strands, motion.as_ref());
         // As it is written, and as somebody has edited it, which is read as RON.
         prop_assert_eq!(written::read(&text), Some((strands.clone(), motion.clone())));
+        let told = format!("// hair: 1 strand\n// step: 0.01\n{text}");
+        prop_assert_eq!(written::read(&told), written::read(&text));
         let edited = text.replace(",(", ", (") + "// edited";
         prop_assert_eq!(written::read(&edited), None);
         for text in [text, edited] {

@@ -41,8 +41,11 @@ pub(super) fn read(text: &str) -> Option<(Strands, Option<PointCache>)> {
     Some((strands, Some(motion)))
 }
 
-/// The strands of lines that are as they were written.
-fn strands_of(head: &str) -> Option<Strands> {
+/// The strands of lines that are as they were written, maybe after what a bake says of itself.
+fn strands_of(mut head: &str) -> Option<Strands> {
+    while head.starts_with("//") {
+        head = head.split_once('\n')?.1;
+    }
     let (first, lines) = head.split_once('\n')?;
     if first != format!("(version: {VERSION}, strands: [") {
         return None;
