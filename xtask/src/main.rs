@@ -95,7 +95,7 @@ fn command() -> Command {
                 ),
         )
         .subcommand(Command::new("pictures").about(
-            "Draws the pictures of docs/styling.md and docs/gallery.md again, by the pages' own commands",
+            "Draws the pictures of docs/styling.md, docs/gallery.md and docs/motion.md again, by the pages' own commands",
         ))
         .subcommand(bench::command())
         .subcommand(stress::command())

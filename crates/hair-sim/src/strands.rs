@@ -35,8 +35,11 @@ pub enum StrandError {
         /// The position as it was given.
         position: Vec3,
     },
-    /// A clump size is a finite number, 0 or more.
-    #[error("strand {id}: the size {size} must be finite, and 0 or more")]
+    /// A clump size is a number from 0 to [`Strands::LARGEST_SIZE`].
+    #[error(
+        "strand {id}: the size {size} was found, a number from 0 to {} was expected",
+        Strands::LARGEST_SIZE
+    )]
     Size {
         /// The strand's id.
         id: u32,
@@ -46,6 +49,9 @@ pub enum StrandError {
 }
 
 impl Strands {
+    /// The largest clump size: a hundred head heights.
+    pub const LARGEST_SIZE: f32 = 30_000.0;
+
     /// No strands.
     #[must_use]
     pub fn new() -> Self {
@@ -57,7 +63,7 @@ impl Strands {
     ///
     /// # Errors
     ///
-    /// When the strand is empty, or a number in it is not finite. Nothing is appended then.
+    /// When the strand is empty, a number in it is not finite, or its size not from 0 to [`Self::LARGEST_SIZE`]. Nothing is appended then.
     pub fn push(&mut self, id: u32, points: &[Vec3], size: Option<f32>) -> Result<(), StrandError> {
         if points.is_empty() {
             return Err(StrandError::Empty { id });
@@ -69,7 +75,7 @@ impl Strands {
                 position: points[point],
             });
         }
-        if let Some(size) = size.filter(|s| !s.is_finite() || *s < 0.0) {
+        if let Some(size) = size.filter(|s| !(0.0..=Self::LARGEST_SIZE).contains(s)) {
             return Err(StrandError::Size { id, size });
         }
         if self.first.is_empty() {
@@ -124,17 +130,6 @@ impl Strands {
     #[must_use]
     pub fn size(&self, index: usize) -> Option<f32> {
         self.sizes[index]
-    }
-
-    /// Sets the clump size of strand `index` (1/300 of the head's height).
-    ///
-    /// # Panics
-    ///
-    /// When there is no such strand, or the size is not finite or below 0.
-    pub fn set_size(&mut self, index: usize, size: Option<f32>) {
-        let is_valid = size.is_none_or(|size| size.is_finite() && size >= 0.0);
-        assert!(is_valid, "a clump of size {size:?}");
-        self.sizes[index] = size;
     }
 
     /// The points of all strands in one list, in metres.
@@ -204,7 +199,9 @@ mod tests {
                 ..
             })
         ));
-        assert!(strands.push(3, &[Vec3::ZERO], Some(-1.0)).is_err());
+        for size in [-1.0, f32::NAN, 1.001 * Strands::LARGEST_SIZE, 1e30] {
+            assert!(strands.push(3, &[Vec3::ZERO], Some(size)).is_err());
+        }
         assert!(strands.is_empty());
         assert_eq!(strands.points().len(), 0);
     }

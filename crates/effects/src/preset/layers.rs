@@ -31,7 +31,7 @@ section! {
         /// Without it all hair.
         zones: Option<String> = text(),
         /// Of effects for lines: which of the preset's `lines`, by their names. Of effects for meshes: what is painted, names of meshes or of their materials with commas between them, `*` for any end, such as "Face*,
-        /// Body". Of the head that comes with inkstrand: skin, dress, eyes, brows, mouth, blush; of the hair: ties.
+        /// Body". Of the head that comes with inkstrand: skin, dress, eyes, brows, mouth, blush, lines; of the hair: ties.
         on: Option<String> = text(),
         /// Of effects for meshes: how much of it is seen through hair that hangs before it: 0 nothing, 1 as if there were no hair.
         through_hair: f32 = number(0.0, 0.0..=1.0),

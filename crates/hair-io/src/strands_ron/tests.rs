@@ -187,7 +187,7 @@ fn position() -> impl Strategy<Value = Vec3> {
 
 prop_compose! {
     fn groom()(
-        strands in prop::collection::vec((prop::collection::vec(position(), 1..6), prop::option::of(0.0f32..1e9)), 1..8),
+        strands in prop::collection::vec((prop::collection::vec(position(), 1..6), prop::option::of(0.0..=Strands::LARGEST_SIZE)), 1..8),
         ids in prop::collection::hash_set(any::<u32>(), 8), numbered: bool,
     ) -> Strands {
         let mut read = Strands::new();
@@ -244,7 +244,7 @@ proptest! {
         prop_assert!(written::read(cut).is_none() && from_text(cut).is_err());
         for (part, other) in [
             ("points: [", "points: [(0.0,0.0)"), ("points: [(", "points: [(NaN,0.0,0.0),("), ("version: 1", "version: 2"), ("version: 1", "version: 0"),
-            ("(points", "(id: -1, points"), ("(points", "(size: -1.0, points"), ("(points", "(size: inf, points"), ("(points", "(sizes: 1.0, points"), ("points", "size: 1.0, size: 1.0, points"),
+            ("(points", "(id: -1, points"), ("(points", "(size: -1.0, points"), ("(points", "(size: 30001.0, points"), ("(points", "(size: inf, points"), ("(points", "(sizes: 1.0, points"), ("points", "size: 1.0, size: 1.0, points"),
         ] {
             let wrong = text.replacen(part, other, 1);
             prop_assert!(wrong == text || written::read(&wrong).is_none() && from_text(&wrong).is_err(), "{}", wrong);

@@ -49,8 +49,8 @@ choices! {
 section! {
     /// How hair swings, bends and returns to its style.
     pub struct DynamicsSection {
-        /// rods: strands bend and twist as elastic rods; for comparison, slower, and without damping, links
-        /// and volume, xpbd: softer rods by position based dynamics, and mass_spring: trusses of springs;
+        /// rods: strands bend and twist as elastic rods; for comparison, slower, and without damping, links,
+        /// volume, locks, recall and low ties, xpbd: softer rods by position based dynamics, and mass_spring: trusses of springs;
         /// none: hair turns with the head.
         solver: SolverChoice = SolverChoice::Rods.or_another(),
         /// What the hair is like; the factors below change it.

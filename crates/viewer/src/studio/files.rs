@@ -81,7 +81,7 @@ impl Studio {
         } else {
             return self.tell(format!(
                 "{}: presets (.ron), hair (.style.ron, .strands.ron, .tfx), heads (.obj, .ply, .gltf, .glb, .vrm), motion \
-                 (.motion.ron) and pictures to draw after (.png, .jpg) can be dropped here",
+                 (.motion.ron) and pictures to draw after (.png, .jpg, .jpeg) can be dropped here",
                 path.display()
             ));
         };
