@@ -61,9 +61,16 @@ impl Detail {
             .flat_map(|cut| [*cut.overlap.start(), cut.at, *cut.overlap.end()]);
         let mut ends: Vec<usize> = of_cuts.chain([0, places.len().saturating_sub(1)]).collect();
         ends.sort_unstable();
+        let lengths = places.windows(2).map(|link| link[0].distance(link[1]));
+        let lengths: Vec<f32> = lengths.collect();
+        let divided = Divided {
+            places: &places,
+            lengths: &lengths,
+            coarseness,
+        };
         for pair in ends.windows(2) {
             let levels = 2 * (pair[1] - pair[0]).max(1).ilog2() + LEVELS;
-            divide(&places, &mut joints, [pair[0], pair[1]], levels, coarseness);
+            divided.divide(&mut joints, [pair[0], pair[1]], levels);
         }
         Ok(Self { joints })
     }
@@ -120,48 +127,69 @@ impl Coarseness {
     };
 }
 
-/// Finds what the joints between two lie between, and returns the greatest error of any.
-fn divide(
-    places: &[Vec3],
-    joints: &mut [JointDetail],
-    [start, end]: [usize; 2],
-    levels: u32,
+/// A path as it is divided.
+struct Divided<'a> {
+    places: &'a [Vec3],
+    /// From each joint to the next one, metres.
+    lengths: &'a [f32],
     coarseness: Coarseness,
-) -> f32 {
-    if end - start < 2 {
-        return 0.0;
+}
+
+impl Divided<'_> {
+    /// Finds what the joints between two lie between, and returns the greatest error of any.
+    fn divide(&self, joints: &mut [JointDetail], [start, end]: [usize; 2], levels: u32) -> f32 {
+        if end - start < 2 {
+            return 0.0;
+        }
+        let (farthest, own) = self.farthest([start, end]);
+        let i = match levels {
+            0 => start.midpoint(end),
+            _ => farthest,
+        };
+        let length_m: f32 = self.lengths[start..end].iter().sum();
+        let too_wide = length_m / (WIDEST * self.coarseness.apart);
+        let levels = levels.saturating_sub(1);
+        let [before, after] = [[start, i], [i, end]].map(|part| self.divide(joints, part, levels));
+        let own = own / self.coarseness.error;
+        let error_m = own.max(too_wide).max(before).max(after);
+        joints[i] = JointDetail {
+            error_m,
+            between: [start as u32, end as u32],
+            way: self.way(i, [start, end]),
+        };
+        error_m
     }
-    let (from, to) = (places[start], places[end]);
-    let way = |i: usize| {
+
+    /// The joint that is farthest from the line between two that have some between them, of those as far the one nearest to the middle, and how far that is,
+    /// metres.
+    fn farthest(&self, [start, end]: [usize; 2]) -> (usize, f32) {
+        let error_m = |i: usize| {
+            let (from, to) = (self.places[start], self.places[end]);
+            let on_line = from.lerp(to, self.way(i, [start, end]));
+            self.places[i].distance(on_line)
+        };
+        let from_middle = |i: usize| (2 * i).abs_diff(start + end);
+        let mut farthest = (start + 1, error_m(start + 1));
+        for i in start + 2..end {
+            let own = error_m(i);
+            let by_error = own.total_cmp(&farthest.1);
+            if by_error
+                .then_with(|| from_middle(farthest.0).cmp(&from_middle(i)))
+                .is_ge()
+            {
+                farthest = (i, own);
+            }
+        }
+        farthest
+    }
+
+    /// How far a joint is on the way from one to another, 0 to 1.
+    #[inline]
+    fn way(&self, i: usize, [start, end]: [usize; 2]) -> f32 {
+        let (from, to) = (self.places[start], self.places[end]);
         let length_squared = from.distance_squared(to).max(f32::MIN_POSITIVE);
-        ((places[i] - from).dot(to - from) / length_squared).clamp(0.0, 1.0)
-    };
-    let error = |i: usize| places[i].distance(from.lerp(to, way(i)));
-    let from_middle = |i: usize| (2 * i).abs_diff(start + end);
-    let farthest = (start + 1..end).max_by(|&i, &j| {
-        let by_error = error(i).total_cmp(&error(j));
-        by_error.then(from_middle(j).cmp(&from_middle(i)))
-    });
-    let Some(farthest) = farthest else {
-        return 0.0;
-    };
-    let i = match levels {
-        0 => start.midpoint(end),
-        _ => farthest,
-    };
-    let length = |links: &[Vec3]| -> f32 { links.windows(2).map(|l| l[0].distance(l[1])).sum() };
-    let too_wide = length(&places[start..=end]) / (WIDEST * coarseness.apart);
-    let levels = levels.saturating_sub(1);
-    let [before, after] =
-        [[start, i], [i, end]].map(|part| divide(places, joints, part, levels, coarseness));
-    let own = error(farthest) / coarseness.error;
-    let error_m = own.max(too_wide).max(before).max(after);
-    joints[i] = JointDetail {
-        error_m,
-        between: [start as u32, end as u32],
-        way: way(i),
-    };
-    error_m
+        ((self.places[i] - from).dot(to - from) / length_squared).clamp(0.0, 1.0)
+    }
 }
 
 #[cfg(test)]
