@@ -250,6 +250,27 @@ mod tests {
     }
 
     #[test]
+    fn of_joints_as_far_the_one_nearest_to_the_middle_divides() {
+        for (heights, middle) in [
+            (vec![0, 1, 1, 1, 0], 2),
+            (vec![0, 1, 1, 0], 2),
+            (vec![0, 2, 1, 1, 0], 1),
+        ] {
+            let point = |(x, y): (usize, &i32)| Vec3::new(x as f32, *y as f32, 0.0);
+            let strand: Vec<Vec3> = heights.iter().enumerate().map(point).collect();
+            let linear = PathKind::Linear { subdivision: 1 };
+            let detail = Detail::of(&strand, linear, &[], Coarseness::FINE).unwrap();
+            let last = strand.len() as u32 - 1;
+            let divides = |joint: &JointDetail| joint.between == [0, last];
+            assert_eq!(
+                detail.joints.iter().position(divides),
+                Some(middle),
+                "{heights:?}"
+            );
+        }
+    }
+
+    #[test]
     fn joints_come_and_go_without_a_jump() {
         let (mut px_per_metre, mut before, mut changes) = (10.0_f32, path(10.0), 0);
         while px_per_metre < 300.0 {
