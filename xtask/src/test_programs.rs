@@ -100,6 +100,8 @@ impl Tests {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     #[test]
@@ -138,5 +140,46 @@ mod tests {
         assert!(is_good && said.lines().count() > 1, "{said}");
         assert!(said.contains("Usage: rustc"), "{said}");
         assert!(tests("no-such-program").run().is_err());
+    }
+
+    /// What `test = false` in a manifest would leave out silently.
+    #[test]
+    fn what_is_built_without_tests_has_none() {
+        let metadata = cargo(&["metadata", "--format-version=1", "--no-deps"]).output();
+        let metadata: Value = serde_json::from_slice(&metadata.unwrap().stdout).unwrap();
+        let packages = metadata["packages"].as_array().unwrap();
+        let targets = packages
+            .iter()
+            .flat_map(|package| package["targets"].as_array().unwrap());
+        let mut count = 0;
+        for target in targets {
+            let kind = target["kind"][0].as_str().unwrap();
+            if target["test"] == true || !["bin", "lib"].contains(&kind) {
+                continue;
+            }
+            let root = Path::new(target["src_path"].as_str().unwrap());
+            let files = match kind {
+                "lib" => files_below(root.parent().unwrap()),
+                _ => vec![root.to_owned()],
+            };
+            for file in files {
+                let text = fs::read_to_string(&file).unwrap_or_default();
+                assert!(!text.contains("#[test]"), "{}", file.display());
+                count += 1;
+            }
+        }
+        assert!(count > 5, "{count}");
+    }
+
+    fn files_below(folder: &Path) -> Vec<PathBuf> {
+        let paths = fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().path());
+        paths
+            .flat_map(|path| match path.is_dir() {
+                true => files_below(&path),
+                false => vec![path],
+            })
+            .collect()
     }
 }
